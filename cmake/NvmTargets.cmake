@@ -1,0 +1,23 @@
+# Helpers for nvm's own targets; nothing here reaches a user's targets.
+
+add_library(nvm_warnings INTERFACE)
+target_compile_options(
+  nvm_warnings INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wshadow
+                         $<$<BOOL:${NVM_WARNINGS_AS_ERRORS}>:-Werror>)
+
+# nvm_add_component(NAME sources...): a compiled part of nvm, src/NAME, as target nvm_NAME and nvm::NAME.
+function(nvm_add_component name)
+  add_library(nvm_${name} STATIC ${ARGN})
+  add_library(nvm::${name} ALIAS nvm_${name})
+  target_include_directories(nvm_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>)
+  target_link_libraries(nvm_${name} PUBLIC nvm::nvm PRIVATE $<BUILD_INTERFACE:nvm_warnings>)
+endfunction()
+
+# nvm_add_test(NAME SOURCES files... LIBRARIES targets...): one GoogleTest program, each TEST a ctest.
+function(nvm_add_test name)
+  cmake_parse_arguments(arg "" "" "SOURCES;LIBRARIES;LABELS" ${ARGN})
+  add_executable(${name} ${arg_SOURCES})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+  target_link_libraries(${name} PRIVATE nvm::nvm nvm_warnings GTest::gmock_main ${arg_LIBRARIES})
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES LABELS "${arg_LABELS}")
+endfunction()

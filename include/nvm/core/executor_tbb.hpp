@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cstddef>
+
+namespace nvm {
+
+/// Like SerialExecutor, on the threads of oneTBB. Limit them with tbb::global_control or a
+/// tbb::task_arena.
+struct TbbExecutor {
+  template <class Body>
+  void for_blocks(std::size_t size, std::size_t grain, const Body& body) const {
+    const std::size_t blocks = (size + grain - 1) / grain;
+    tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
+      body(block * grain, std::min((block + 1) * grain, size));
+    });
+  }
+};
+
+}  // namespace nvm

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <cstddef>
+
+namespace nvm {
+
+/// Which surface of a voxel takes a point (spec §3.4).
+enum class SurfaceRule {
+  kPaper,          ///< the front when within max_surface_angle of it, else the back
+  kSmallestAngle,  ///< the surface at the smallest angle; a new one when none is within
+                   ///< max_surface_angle
+};
+
+/// What leaves the map to bound it (spec §3.5).
+enum class Eviction {
+  kLeastRecentlyUsed,  ///< only a full map evicts, and the voxel that has been unused for longest
+                       ///< goes first
+  kRadius,  ///< each insertion also drops the voxels farther than eviction_radius from the sensor
+};
+
+/// Configuration of a VoxelMap. Aggregate; the map's constructor validates it.
+struct MapOptions {
+  /// Edge of a voxel [m], 0.01 to 100; d of Eq. 4.
+  double voxel_size = 0.3;
+  /// The map never holds more voxels than this, 1 to 2^26.
+  std::size_t capacity = 1'000'000;
+  /// The map never owns more memory than this [bytes]; 0: as much as `capacity` voxels can need. At
+  /// least 1 MiB.
+  std::size_t max_bytes = 0;
+  /// Points that one surface of a voxel holds, 1 to 120; N of spec §3.3.
+  int points_per_surface = 20;
+  /// Two points of one surface of a voxel are at least this far apart [m], 0 to 2 voxel_size.
+  double min_point_distance = 0.1;
+  /// Surfaces in a voxel, 1 to 8: 2 for front and back, 1 for a map that does not tell sides apart.
+  int max_surfaces = 2;
+  SurfaceRule surface_rule = SurfaceRule::kPaper;
+  /// A point joins, and a query reads, a surface whose principal direction is within this angle
+  /// [rad], 0 to pi; theta of spec §3.4 and §3.6.
+  double max_surface_angle = 1.5707963267948966;
+  /// A query returns points whose own normal is within this angle [rad], 0 to pi; the point
+  /// threshold of spec §3.6.
+  double max_point_angle = 1.7453292519943295;
+  Eviction eviction = Eviction::kLeastRecentlyUsed;
+  /// With Eviction::kRadius: [m], larger than voxel_size.
+  double eviction_radius = 100.0;
+
+  /// Throws std::invalid_argument with the name, the value and the allowed range of the first bad
+  /// member.
+  void validate() const;
+};
+
+}  // namespace nvm

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+
+namespace nvm {
+
+/// Names a stored point of one map; valid until that map is next changed.
+using PointId = std::uint32_t;
+
+/// The largest number of neighbours that one query can ask for.
+inline constexpr std::size_t kMaxNeighbors = 64;
+
+/// What a nearest-neighbour query asks for.
+struct NearestSearch {
+  /// How many neighbours at most, 1 to kMaxNeighbors (larger values are clamped).
+  std::size_t count = 5;
+  /// Neighbours lie at most this far away [m], inclusive. Voxel maps reach no farther than the 27
+  /// voxels around the query whatever is asked.
+  double max_distance = 1.0;
+};
+
+/// One answer of a query: a stored point in the map frame.
+struct Neighbor {
+  Eigen::Vector3d position;  ///< [m], map frame
+  float sq_distance;         ///< to the query [m^2]
+  PointId id;                ///< for the map's accessors: normal(id), side(id)
+};
+
+}  // namespace nvm
