@@ -71,7 +71,7 @@ struct IsPointRange<
 
 /// True when nvm can read a `Point`.
 template <class Point>
-inline constexpr bool is_point_v = detail::IsPoint<Point>::value;
+inline constexpr bool is_point_v = detail::IsPoint<std::remove_cv_t<Point>>::value;
 
 /// True for anything with `size()` and `operator[]` whose elements are points: std::vector with any
 /// allocator, std::array, pcl::PointCloud, a view. Nothing is copied.

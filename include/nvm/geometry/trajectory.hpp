@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "nvm/geometry/pose.hpp"
+
+namespace nvm {
+
+/// A pose and its time [s].
+struct StampedPose {
+  double time = 0.0;
+  Pose pose = Pose::Identity();
+};
+
+/// Poses in ascending order of time.
+using Trajectory = std::vector<StampedPose>;
+
+/// The pose a share `alpha` (0 to 1) of the way from `a` to `b`: slerp for the rotation, a straight
+/// line for the position.
+inline Pose interpolate(const Pose& a, const Pose& b, double alpha) {
+  const Eigen::Quaterniond q =
+      Eigen::Quaterniond(a.linear()).slerp(alpha, Eigen::Quaterniond(b.linear()));
+  Pose pose = Pose::Identity();
+  pose.linear() = q.toRotationMatrix();
+  pose.translation() = (1.0 - alpha) * a.translation() + alpha * b.translation();
+  return pose;
+}
+
+/// The pose of `trajectory` at `time` [s], interpolated; nothing outside its time span.
+inline std::optional<Pose> pose_at(const Trajectory& trajectory, double time) {
+  const auto next = std::lower_bound(
+      trajectory.begin(), trajectory.end(), time, [](const StampedPose& pose, double t) {
+        return pose.time < t;
+      });
+  if (next == trajectory.end()) {
+    return std::nullopt;
+  }
+  if (next->time == time) {
+    return next->pose;
+  }
+  if (next == trajectory.begin()) {
+    return std::nullopt;
+  }
+  const StampedPose& previous = *(next - 1);
+  return interpolate(
+      previous.pose, next->pose, (time - previous.time) / (next->time - previous.time));
+}
+
+}  // namespace nvm
