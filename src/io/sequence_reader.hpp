@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lio/sensor_data.hpp"
+#include "nvm/geometry/pose.hpp"
+
+namespace nvm::io {
+
+/// What is known of a sequence before its first scan is read.
+struct SequenceInfo {
+  std::string format;          ///< "folder of PCD files", "nvm sequence", "ROS 1 bag", ...
+  std::size_t scan_count = 0;  ///< 0: unknown
+  bool has_imu = false;
+  bool has_point_times = false;
+  Pose T_imu_lidar = Pose::Identity();  ///< extrinsic; identity when the sequence does not tell
+};
+
+/// Reads a recorded sequence one scan at a time, so that a sequence larger than memory can run.
+class SequenceReader {
+ public:
+  virtual ~SequenceReader() = default;
+
+  virtual const SequenceInfo& info() const = 0;
+
+  /// The next scan in order of time; nothing at the end. Throws std::runtime_error, naming the
+  /// file, when it is missing, truncated or malformed, and when scan times go back.
+  virtual std::optional<lio::Scan> next_scan() = 0;
+
+  /// The IMU samples not yet handed out with time <= `time` [s], ascending; none without an IMU.
+  virtual std::vector<lio::ImuSample> imu_until(double time) = 0;
+};
+
+/// Opens a folder of PCD, PLY or KITTI .bin scans, an nvm sequence folder, or a ROS 1 bag.
+/// Throws std::runtime_error, naming `path`, when it is none of these.
+std::unique_ptr<SequenceReader> open_sequence(const std::string& path);
+
+}  // namespace nvm::io
