@@ -9,8 +9,12 @@ target_compile_options(
 function(nvm_add_component name)
   add_library(nvm_${name} STATIC ${ARGN})
   add_library(nvm::${name} ALIAS nvm_${name})
-  target_include_directories(nvm_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>)
+  set_target_properties(nvm_${name} PROPERTIES EXPORT_NAME ${name})
+  target_include_directories(
+    nvm_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
+                       $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/nvm/components>)
   target_link_libraries(nvm_${name} PUBLIC nvm::nvm PRIVATE $<BUILD_INTERFACE:nvm_warnings>)
+  set_property(GLOBAL APPEND PROPERTY NVM_COMPONENTS ${name})
 endfunction()
 
 # nvm_add_test(NAME SOURCES files... LIBRARIES targets...): one GoogleTest program, each TEST a ctest.

@@ -1,0 +1,67 @@
+# Install rules, the CMake package with its components, nvm.pc and the Debian package.
+
+include(CMakePackageConfigHelpers)
+
+set(nvm_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/nvm)
+set(nvm_generated_dir ${PROJECT_BINARY_DIR}/package)
+get_property(nvm_component_list GLOBAL PROPERTY NVM_COMPONENTS)
+list(JOIN nvm_component_list " " nvm_components)
+
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/nvm DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(TARGETS nvm EXPORT nvm-targets)
+install(EXPORT nvm-targets NAMESPACE nvm:: DESTINATION ${nvm_package_dir})
+
+# nvm_component_needs(NAME components_variable packages_variable): what a component links to,
+# read from its target, so that the package never names a dependency that the build does not.
+function(nvm_component_needs name components_variable packages_variable)
+  get_target_property(libraries nvm_${name} LINK_LIBRARIES)
+  list(FILTER libraries EXCLUDE REGEX "^(nvm::nvm|\\$<BUILD_INTERFACE:.*|/.*|-.*)$")
+  set(components ${libraries})
+  list(FILTER components INCLUDE REGEX "^nvm::")
+  list(TRANSFORM components REPLACE "^nvm::" "")
+  set(packages ${libraries})
+  list(FILTER packages EXCLUDE REGEX "^nvm::")
+  list(TRANSFORM packages REPLACE "::.*" "")
+  list(REMOVE_DUPLICATES packages)
+  set(${components_variable} ${components} PARENT_SCOPE)
+  set(${packages_variable} ${packages} PARENT_SCOPE)
+endfunction()
+
+foreach(component IN LISTS nvm_component_list)
+  nvm_component_needs(${component} needed_components needed_packages)
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/nvm-component.cmake.in
+                 ${nvm_generated_dir}/nvm-${component}.cmake @ONLY)
+  install(FILES ${nvm_generated_dir}/nvm-${component}.cmake DESTINATION ${nvm_package_dir})
+  install(TARGETS nvm_${component} EXPORT nvm-${component}-targets)
+  install(EXPORT nvm-${component}-targets NAMESPACE nvm:: DESTINATION ${nvm_package_dir})
+  install(
+    DIRECTORY ${PROJECT_SOURCE_DIR}/src/${component}
+    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/nvm/components
+    FILES_MATCHING PATTERN "*.hpp")
+endforeach()
+
+configure_package_config_file(
+  ${PROJECT_SOURCE_DIR}/cmake/nvm-config.cmake.in ${nvm_generated_dir}/nvm-config.cmake
+  INSTALL_DESTINATION ${nvm_package_dir} NO_SET_AND_CHECK_MACRO NO_CHECK_REQUIRED_COMPONENTS_MACRO)
+# While the major version is 0, each minor version may change the interface.
+write_basic_package_version_file(
+  ${nvm_generated_dir}/nvm-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${nvm_generated_dir}/nvm-config.cmake ${nvm_generated_dir}/nvm-config-version.cmake
+        DESTINATION ${nvm_package_dir})
+
+configure_file(${PROJECT_SOURCE_DIR}/cmake/nvm.pc.in ${nvm_generated_dir}/nvm.pc @ONLY)
+install(FILES ${nvm_generated_dir}/nvm.pc DESTINATION ${CMAKE_INSTALL_DATADIR}/pkgconfig)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+# `cpack -G DEB --config build/release/CPackConfig.cmake`
+set(CPACK_PACKAGE_NAME libnvm-dev)
+set(CPACK_PACKAGE_CONTACT "The nvm authors <nvm@users.noreply.github.com>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY ${PROJECT_DESCRIPTION})
+set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "libeigen3-dev (>= 3.3), libnanoflann-dev (>= 1.4)")
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+include(CPack)

@@ -1,0 +1,59 @@
+# cmake -D root=SOURCE_DIR -P check_includes.cmake
+# Refuses an include against the direction of the layers, in the core a library beyond its two, and
+# a file that has grown too long.
+cmake_minimum_required(VERSION 3.22)
+
+set(layers core geometry normal map registration config lio io sim eval app)
+
+# What each layer may include beside itself.
+set(below_core "")
+set(below_geometry core)
+set(below_normal core geometry)
+set(below_map core geometry)
+set(below_registration core geometry normal map)
+set(below_config ${below_registration} registration)
+set(below_lio ${below_config} config)
+set(below_io ${below_lio} lio)
+set(below_sim ${below_lio} lio io)
+set(below_eval ${below_lio} lio io)
+set(below_app ${below_eval} eval sim)
+
+set(max_lines 300)
+# The core has no streams, threads or libraries of its own: Eigen, nanoflann, and TBB where asked.
+set(refused_in_core
+    "<(iostream|fstream|sstream|thread|mutex|spdlog|fmt|yaml-cpp|pcl|ceres|omp|tbb)[./>]")
+set(allowed_in_core include/nvm/core/executor_tbb.hpp include/nvm/map/serialization.hpp)
+
+set(problems "")
+foreach(layer IN LISTS layers)
+  foreach(folder include/nvm src)
+    file(GLOB_RECURSE files RELATIVE ${root} ${root}/${folder}/${layer}/*.hpp
+         ${root}/${folder}/${layer}/*.cpp)
+    foreach(file IN LISTS files)
+      file(READ ${root}/${file} text)
+      string(REGEX MATCHALL "\n" line_ends "${text}")
+      list(LENGTH line_ends line_count)
+      file(STRINGS ${root}/${file} includes REGEX "^#include ")
+      foreach(include IN LISTS includes)
+        if(include MATCHES "\"(nvm/)?([a-z_]+)/"
+           AND NOT CMAKE_MATCH_2 IN_LIST below_${layer}
+           AND NOT CMAKE_MATCH_2 STREQUAL layer)
+          list(APPEND problems "${file}: ${include} (${layer} is not above ${CMAKE_MATCH_2})")
+        endif()
+        if(folder STREQUAL include/nvm
+           AND include MATCHES ${refused_in_core}
+           AND NOT file IN_LIST allowed_in_core)
+          list(APPEND problems "${file}: ${include} (not in the core)")
+        endif()
+      endforeach()
+      if(line_count GREATER max_lines)
+        list(APPEND problems "${file}: longer than ${max_lines} lines")
+      endif()
+    endforeach()
+  endforeach()
+endforeach()
+
+list(JOIN problems "\n  " problems)
+if(problems)
+  message(FATAL_ERROR "includes and file lengths:\n  ${problems}")
+endif()

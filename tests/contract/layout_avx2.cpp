@@ -1,0 +1,5 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include "contract/layout.hpp"
+
+const nvm::test::Layout nvm::test::kAvx2Layouts[] = NVM_TEST_PUBLIC_LAYOUTS;

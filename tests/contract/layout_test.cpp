@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include "contract/layout.hpp"
+
+#include <gtest/gtest.h>
+
+namespace nvm::test {
+namespace {
+
+TEST(Contract, public_structs_have_one_layout_whatever_the_instruction_set) {
+  for (std::size_t i = 0; i < kLayoutCount; ++i) {
+    SCOPED_TRACE(kBaselineLayouts[i].type);
+    EXPECT_EQ(kBaselineLayouts[i].size, kAvx2Layouts[i].size);
+    EXPECT_EQ(kBaselineLayouts[i].alignment, kAvx2Layouts[i].alignment);
+  }
+}
+
+}  // namespace
+}  // namespace nvm::test
