@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include "config/nearest_name.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+
+namespace nvm::config {
+namespace {
+
+/// Levenshtein distance: insertions, deletions and substitutions between `a` and `b`.
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+std::optional<std::string> nearest_name(
+    const std::string& name, const std::vector<std::string>& candidates) {
+  std::optional<std::string> nearest;
+  std::size_t limit = std::max<std::size_t>(2, name.size() / 3) + 1;
+  for (const std::string& candidate : candidates) {
+    const std::size_t distance = edit_distance(name, candidate);
+    if (distance < limit) {
+      nearest = candidate;
+      limit = distance;
+    }
+  }
+  return nearest;
+}
+
+}  // namespace nvm::config
