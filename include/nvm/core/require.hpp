@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <sstream>
+#include <stdexcept>
+
+namespace nvm {
+
+/// Throws std::invalid_argument "nvm: NAME = VALUE must be ALLOWED" unless `ok`: the one way in
+/// which options are refused.
+template <class Value>
+void require(bool ok, const char* name, const Value& value, const char* allowed) {
+  if (!ok) {
+    std::ostringstream message;
+    message << "nvm: " << name << " = " << value << " must be " << allowed;
+    throw std::invalid_argument(message.str());
+  }
+}
+
+}  // namespace nvm

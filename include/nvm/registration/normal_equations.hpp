@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "nvm/registration/association.hpp"
+#include "nvm/registration/point_to_plane.hpp"
+#include "nvm/registration/robust_kernel.hpp"
+
+namespace nvm {
+
+/// How many points met which AssociationStatus.
+struct AssociationCounts {
+  std::size_t valid = 0;
+  std::size_t too_few_neighbors = 0;
+  std::size_t no_plane = 0;
+  std::size_t too_far = 0;
+
+  std::size_t total() const { return valid + too_few_neighbors + no_plane + too_far; }
+
+  void add(AssociationStatus status) {
+    valid += status == AssociationStatus::kValid;
+    too_few_neighbors += status == AssociationStatus::kTooFewNeighbors;
+    no_plane += status == AssociationStatus::kNoPlane;
+    too_far += status == AssociationStatus::kTooFar;
+  }
+
+  AssociationCounts& operator+=(const AssociationCounts& other) {
+    valid += other.valid;
+    too_few_neighbors += other.too_few_neighbors;
+    no_plane += other.no_plane;
+    too_far += other.too_far;
+    return *this;
+  }
+};
+
+/// A 6 x 6 matrix over a PoseStep.
+using PoseMatrix = Eigen::Matrix<double, 6, 6, Eigen::DontAlign>;
+
+/// The linearised problem: minimise 1/2 s^T information s + gradient . s over the PoseStep s.
+/// Sums of it over parts of a scan, added in a fixed order, give the same bits whoever made them.
+struct NormalEquations {
+  PoseMatrix information = PoseMatrix::Zero();  ///< sum w J J^T
+  PoseStep gradient = PoseStep::Zero();         ///< sum w J e
+  double sum_weights = 0.0;                     ///< sum w
+  double sum_sq_ranges = 0.0;                   ///< sum w |p_scan|^2 [m^2]
+  double sum_sq_distances = 0.0;                ///< of valid points to their planes [m^2]
+  AssociationCounts counts;
+
+  /// Adds what `p_scan` and its plane say about the pose with rotation `R_map_scan`.
+  void add(
+      const Eigen::Vector3d& p_scan,
+      const Eigen::Matrix3d& R_map_scan,
+      const Association& association,
+      const RobustKernel& kernel) {
+    counts.add(association.status);
+    if (association.status != AssociationStatus::kValid) {
+      return;
+    }
+    const double residual = association.weight * association.distance;
+    const double weight = kernel.weight(residual) * association.weight * association.weight;
+    const PoseStep jacobian = point_to_plane_jacobian(
+        p_scan, R_map_scan.transpose() * association.normal, association.normal);
+    information.noalias() += (weight * jacobian) * jacobian.transpose();
+    gradient += (weight * association.distance) * jacobian;
+    sum_weights += weight;
+    sum_sq_ranges += weight * p_scan.squaredNorm();
+    sum_sq_distances += association.distance * association.distance;
+  }
+
+  /// Of the associated points to their planes [m].
+  double rms_distance() const {
+    return counts.valid == 0 ? 0.0
+                             : std::sqrt(sum_sq_distances / static_cast<double>(counts.valid));
+  }
+
+  NormalEquations& operator+=(const NormalEquations& other) {
+    information += other.information;
+    gradient += other.gradient;
+    sum_weights += other.sum_weights;
+    sum_sq_ranges += other.sum_sq_ranges;
+    sum_sq_distances += other.sum_sq_distances;
+    counts += other.counts;
+    return *this;
+  }
+};
+
+/// The step that solves NormalEquations, and what the scan tells about each direction.
+struct PoseSolution {
+  PoseStep step = PoseStep::Zero();
+  /// Eigenvalues of the information per unit of weight, ascending, with rotations measured by the
+  /// arc [m] that they make at the points' mean range: 0 (unobserved) to about 1 for each.
+  std::array<double, 6> observability{};
+  int degenerate_directions = 0;  ///< those below the limit, along which `step` is zero
+};
+
+/// Solves `equations`; directions whose observability is below `min_observability` stay as they
+/// are (solution remapping: Zhang, Kaess and Singh, "On degeneracy of optimization-based state
+/// estimation problems", ICRA 2016), so that a corridor or a lone wall leaves the guess untouched
+/// where it says nothing.
+inline PoseSolution solve(const NormalEquations& equations, double min_observability) {
+  PoseSolution solution;
+  if (!(equations.sum_weights > 0.0)) {
+    solution.degenerate_directions = 6;
+    return solution;
+  }
+  const double mean_range = std::sqrt(equations.sum_sq_ranges / equations.sum_weights);
+  PoseStep scale = PoseStep::Ones();
+  scale.head<3>().setConstant(mean_range > 0.0 ? 1.0 / mean_range : 1.0);
+  const Eigen::Matrix<double, 6, 6> scaled =
+      scale.asDiagonal() * equations.information * scale.asDiagonal() / equations.sum_weights;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(scaled);
+  const PoseStep target = -scale.cwiseProduct(equations.gradient) / equations.sum_weights;
+  for (int i = 0; i < 6; ++i) {
+    const double observability = eigen.eigenvalues()[i];
+    solution.observability[static_cast<std::size_t>(i)] = observability;
+    if (observability < min_observability) {
+      ++solution.degenerate_directions;
+      continue;
+    }
+    const auto direction = eigen.eigenvectors().col(i);
+    solution.step += (direction.dot(target) / observability) * direction;
+  }
+  solution.step = scale.cwiseProduct(solution.step).eval();
+  return solution;
+}
+
+}  // namespace nvm

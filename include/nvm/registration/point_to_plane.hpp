@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <Eigen/Core>
+
+#include "nvm/geometry/pose.hpp"
+
+namespace nvm {
+
+/// Change of a pose T_map_scan: (rotation [rad] in the scan frame, translation [m] in the map
+/// frame). DontAlign for the same reason as Pose.
+using PoseStep = Eigen::Matrix<double, 6, 1, Eigen::DontAlign>;
+
+/// `T_map_scan` changed by `step`: R Exp(step[0:3]), t + step[3:6]. Rotating about the sensor keeps
+/// the problem well conditioned wherever the scan lies in the map.
+inline Pose retract(const Pose& T_map_scan, const PoseStep& step) {
+  Pose result = T_map_scan;
+  result.linear() = T_map_scan.linear() * so3_exp(step.head<3>());
+  result.translation() += step.tail<3>();
+  return result;
+}
+
+/// Derivative of n_map . (T p_scan - q) (spec §4) to a PoseStep, for n_scan = R^T n_map.
+inline PoseStep point_to_plane_jacobian(
+    const Eigen::Vector3d& p_scan, const Eigen::Vector3d& n_scan, const Eigen::Vector3d& n_map) {
+  PoseStep jacobian;
+  jacobian << p_scan.cross(n_scan), n_map;
+  return jacobian;
+}
+
+}  // namespace nvm
