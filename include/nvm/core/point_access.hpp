@@ -33,18 +33,20 @@ struct PointAccess<
   }
 };
 
+namespace detail {
+
+template <class Derived>
+std::integral_constant<int, Derived::SizeAtCompileTime> eigen_size(
+    const Eigen::MatrixBase<Derived>&);
+
+}  // namespace detail
+
 /// Eigen vectors (and maps, blocks, expressions) of three elements.
 template <class Vector>
 struct PointAccess<
     Vector,
-    std::enable_if_t<
-        std::is_base_of_v<Eigen::MatrixBase<Vector>, Vector> && Vector::SizeAtCompileTime == 3>> {
-  static Eigen::Vector3d position(const Vector& vector) {
-    return {
-        static_cast<double>(vector[0]),
-        static_cast<double>(vector[1]),
-        static_cast<double>(vector[2])};
-  }
+    std::enable_if_t<decltype(detail::eigen_size(std::declval<const Vector&>()))::value == 3>> {
+  static Eigen::Vector3d position(const Vector& vector) { return vector.template cast<double>(); }
 };
 
 namespace detail {
