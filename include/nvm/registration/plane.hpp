@@ -18,6 +18,8 @@ struct Plane {
   Eigen::Vector3d centroid;  ///< of the points [m], map frame; the least-squares plane contains it
   Eigen::Vector3d normal;    ///< unit, map frame; its sign is arbitrary until it is oriented
   double planarity;          ///< a2D = (sigma2 - sigma3) / sigma1 (spec §4), 0 (a line) to 1
+  Eigen::Vector3d
+      deviation;  ///< of the points [m], ascending: along the normal, then within the plane
 };
 
 /// The least-squares plane of `count` neighbours (PCA), or nothing when they do not span one: fewer
@@ -46,7 +48,7 @@ inline std::optional<Plane> fit_plane(const Neighbor* neighbors, std::size_t cou
   if (!(sigma[2] > 0.0) || sigma[1] < kCollinear * sigma[2]) {
     return std::nullopt;
   }
-  return Plane{origin + mean, eigen.eigenvectors().col(0), (sigma[1] - sigma[0]) / sigma[2]};
+  return Plane{origin + mean, eigen.eigenvectors().col(0), (sigma[1] - sigma[0]) / sigma[2], sigma};
 }
 
 }  // namespace nvm
