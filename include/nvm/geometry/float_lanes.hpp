@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+// Arithmetic on several floats at once with the vector types of GCC and Clang: SSE2, AVX or NEON
+// code from one source. Code that is a template over its number type runs on float, on double and
+// on FloatLanes; on float and FloatLanes it gives the same bits.
+namespace nvm {
+
+/// Floats in one FloatLanes: as many as a register of the target holds.
+#if defined(__AVX__)
+inline constexpr std::size_t kLaneCount = 8;
+#else
+inline constexpr std::size_t kLaneCount = 4;
+#endif
+
+using FloatLanes = float __attribute__((vector_size(kLaneCount * sizeof(float))));
+using FloatLaneBits = std::int32_t __attribute__((vector_size(kLaneCount * sizeof(float))));
+
+inline FloatLanes load_lanes(const float* values) {
+  FloatLanes lanes;
+  std::memcpy(&lanes, values, sizeof(lanes));
+  return lanes;
+}
+
+inline void store_lanes(const FloatLanes& lanes, float* values) {
+  std::memcpy(values, &lanes, sizeof(lanes));
+}
+
+/// `value` as a Real: once per lane for FloatLanes.
+template <class Real>
+Real constant(double value) {
+  return static_cast<float>(value) - Real{};
+}
+template <>
+inline double constant<double>(double value) {
+  return value;
+}
+
+template <class Real>
+Real absolute(const Real& value) {
+  return value < Real{} ? -value : value;
+}
+
+/// `a` where it is larger, else `b`; `b` where either is NaN.
+template <class Real>
+Real larger(const Real& a, const Real& b) {
+  return a > b ? a : b;
+}
+
+template <class Real>
+Real smaller(const Real& a, const Real& b) {
+  return a < b ? a : b;
+}
+
+namespace detail {
+
+// 1/sqrt by Newton steps from a first guess out of the float's bits. Plain arithmetic, because
+// std::sqrt may set errno and therefore does not vectorise without -fno-math-errno.
+template <class Real, class Bits>
+Real newton_inverse_sqrt(const Real& value) {
+  Bits bits;
+  std::memcpy(&bits, &value, sizeof(bits));
+  bits = 0x5f375a86 - (bits >> 1);
+  Real y;
+  std::memcpy(&y, &bits, sizeof(y));
+  const Real half = 0.5F * value;
+  for (int step = 0; step < 3; ++step) {
+    y = y * (1.5F - half * y * y);
+  }
+  return y;
+}
+
+}  // namespace detail
+
+/// 1/sqrt(value) to 2 units in the last place for positive normal numbers; finite for zero.
+inline FloatLanes inverse_sqrt(const FloatLanes& value) {
+  return detail::newton_inverse_sqrt<FloatLanes, FloatLaneBits>(value);
+}
+inline float inverse_sqrt(float value) {
+  return detail::newton_inverse_sqrt<float, std::int32_t>(value);
+}
+inline double inverse_sqrt(double value) { return value > 0.0 ? 1.0 / std::sqrt(value) : 0.0; }
+
+}  // namespace nvm

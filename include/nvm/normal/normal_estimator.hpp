@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <type_traits>
+
+#include "nvm/core/executor.hpp"
+#include "nvm/core/point_access.hpp"
+#include "nvm/core/require.hpp"
+#include "nvm/normal/block_search.hpp"
+#include "nvm/normal/block_tree.hpp"
+#include "nvm/normal/kd_tree_search.hpp"
+#include "nvm/normal/local_points.hpp"
+#include "nvm/normal/normal_options.hpp"
+#include "nvm/normal/normal_result.hpp"
+#include "nvm/normal/plane_judge.hpp"
+#include "nvm/normal/spatial_order.hpp"
+
+namespace nvm {
+
+/// Estimates the normals of LiDAR scans (spec §2).
+///
+/// Keep one per sensor: its buffers are reused, so that with NormalMethod::kBlockTree nothing is
+/// allocated once they have grown to the size of the scans. An estimator serves one caller at a
+/// time; the executor spreads the work. The result is the same, bit for bit, for every executor.
+class NormalEstimator {
+ public:
+  /// Throws std::invalid_argument when the options are out of range.
+  explicit NormalEstimator(const NormalOptions& options = {}) : options_(options) {
+    options_.validate();
+  }
+
+  const NormalOptions& options() const { return options_; }
+
+  /// Normals of `points`, from their neighbours in `points`.
+  ///
+  /// `viewpoints` is where the sensor was, in the frame of the points [m]: one point for a raw
+  /// scan, or a range with one per point for a deskewed one. Bad points get a status, never an
+  /// exception. Throws std::invalid_argument when the numbers of points and viewpoints differ.
+  /// The result stays valid until the next call.
+  template <class Points, class Viewpoints, class Executor = SerialExecutor>
+  const NormalResult& estimate(
+      const Points& points, const Viewpoints& viewpoints, const Executor& executor = {}) & {
+    prepare_cloud(points, viewpoints, executor);
+    result_.status = cloud_status_;
+    solve(cloud_, points.size(), executor);
+    finish(points, viewpoints, executor);
+    return result_;
+  }
+
+  /// Normals at `queries`, from their neighbours in `points`: for hosts that work on a thinned scan
+  /// and still have the full one. A query counts among its neighbours only when it is one of the
+  /// points. `viewpoint` is one point. Otherwise like estimate().
+  template <class Queries, class Points, class Viewpoint, class Executor = SerialExecutor>
+  const NormalResult& estimate_at(
+      const Queries& queries,
+      const Points& points,
+      const Viewpoint& viewpoint,
+      const Executor& executor = {}) & {
+    static_assert(is_point_v<Viewpoint>, "nvm: estimate_at() takes one viewpoint for all points");
+    prepare_cloud(points, viewpoint, executor);
+    localize(queries, viewpoint, position(viewpoint), result_.status, executor);
+    queries_.sort(local_, result_.status, resolution());
+    solve(queries_, queries.size(), executor);
+    finish(queries, viewpoint, executor);
+    return result_;
+  }
+
+ private:
+  static constexpr std::size_t kPointGrain = 4096;
+  static constexpr std::size_t kBlockGrain = 32;
+
+  // Points that share a cube of this edge are close enough to share a block in any order.
+  double resolution() const { return options_.min_radius / 4.0; }
+
+  template <class Points, class Viewpoints, class Executor>
+  void prepare_cloud(const Points& points, const Viewpoints& viewpoints, const Executor& executor) {
+    localize(points, viewpoints, local_origin(viewpoints), cloud_status_, executor);
+    cloud_.sort(local_, cloud_status_, resolution());
+    if (options_.method == NormalMethod::kBlockTree) {
+      tree_.build(cloud_, executor);
+    }
+  }
+
+  // The first viewpoint, so that a scan anywhere in a map keeps the resolution of its floats.
+  template <class Viewpoints>
+  static Eigen::Vector3d local_origin(const Viewpoints& viewpoints) {
+    if constexpr (is_point_v<Viewpoints>) {
+      return position(viewpoints);
+    } else {
+      for (std::size_t i = 0; i < viewpoints.size(); ++i) {
+        if (const Eigen::Vector3d viewpoint = position(viewpoints[i]); viewpoint.allFinite()) {
+          return viewpoint;
+        }
+      }
+      return Eigen::Vector3d::Zero();
+    }
+  }
+
+  template <class Points, class Viewpoints, class Executor>
+  void localize(
+      const Points& points,
+      const Viewpoints& viewpoints,
+      const Eigen::Vector3d& origin,
+      std::vector<NormalStatus>& status,
+      const Executor& executor) {
+    static_assert(
+        is_point_range_v<Points>, "nvm: points must have size() and operator[] of points");
+    static_assert(
+        is_point_v<Viewpoints> || is_point_range_v<Viewpoints>,
+        "nvm: viewpoints must be one point or have size() and operator[] of points");
+    if constexpr (!is_point_v<Viewpoints>) {
+      require(
+          viewpoints.size() == points.size(),
+          "number of viewpoints",
+          viewpoints.size(),
+          "one, or as many as points");
+    }
+    const detail::Localizer localizer(options_, origin);
+    local_.resize(points.size());
+    status.resize(points.size());
+    executor.for_blocks(points.size(), kPointGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        status[i] = localizer(position(points[i]), detail::viewpoint_of(viewpoints, i), i, local_);
+      }
+    });
+  }
+
+  template <class Executor>
+  void solve(
+      const detail::SpatialOrder& queries, std::size_t result_size, const Executor& executor) {
+    result_.normals.assign(result_size, Eigen::Vector3f::Zero());
+    if (options_.method == NormalMethod::kBlockTree) {
+      solve_with(detail::BlockSearch(cloud_, tree_), queries, executor);
+    } else {
+      solve_with(detail::KdTreeSearch(cloud_), queries, executor);
+    }
+  }
+
+  template <class Search, class Executor>
+  void solve_with(
+      const Search& search, const detail::SpatialOrder& queries, const Executor& executor) {
+    const detail::PlaneJudge judge(options_);
+    executor.for_blocks(
+        queries.block_count(), kBlockGrain, [&](std::size_t begin, std::size_t end) {
+          for (std::size_t block = begin; block < end; ++block) {
+            detail::BlockMoments sums{};
+            search(detail::QueryBlock(queries, block), sums);
+            judge(sums, queries, block, result_);
+          }
+        });
+  }
+
+  // Turns the normals to their viewpoints (spec §2.3).
+  template <class Points, class Viewpoints, class Executor>
+  void finish(const Points& points, const Viewpoints& viewpoints, const Executor& executor) {
+    executor.for_blocks(points.size(), kPointGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const Eigen::Vector3d ray = position(points[i]) - detail::viewpoint_of(viewpoints, i);
+        if (result_.status[i] == NormalStatus::kValid &&
+            ray.dot(result_.normals[i].template cast<double>()) > 0.0) {
+          result_.normals[i] = -result_.normals[i];
+        }
+      }
+    });
+    result_.stats = count_statuses(result_.status);
+  }
+
+  NormalOptions options_;
+  detail::LocalPoints local_;
+  std::vector<NormalStatus> cloud_status_;
+  detail::SpatialOrder cloud_, queries_;
+  detail::BlockTree tree_;
+  NormalResult result_;
+};
+
+/// Normals of one scan: NormalEstimator::estimate() for callers without a stream of scans.
+template <class Points, class Viewpoints, class Executor = SerialExecutor>
+NormalResult estimate_normals(
+    const Points& points,
+    const Viewpoints& viewpoints,
+    const NormalOptions& options = {},
+    const Executor& executor = {}) {
+  NormalEstimator estimator(options);
+  return estimator.estimate(points, viewpoints, executor);
+}
+
+}  // namespace nvm
