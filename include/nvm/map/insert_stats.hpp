@@ -19,6 +19,7 @@ struct InsertStats {
       0;  ///< no room even after evicting every other voxel (only when max_bytes is tiny)
   std::size_t new_voxels = 0;
   std::size_t evicted_voxels = 0;
+  std::size_t evicted_points = 0;
 };
 
 }  // namespace nvm

@@ -4,6 +4,8 @@
 
 #include <cstddef>
 
+#include "nvm/core/require.hpp"
+
 namespace nvm {
 
 /// Which surface of a voxel takes a point (spec §3.4).
@@ -43,12 +45,53 @@ struct MapOptions {
   /// threshold of spec §3.6.
   double max_point_angle = 1.7453292519943295;
   Eviction eviction = Eviction::kLeastRecentlyUsed;
-  /// With Eviction::kRadius: [m], larger than voxel_size.
+  /// With Eviction::kRadius: [m], at least voxel_size.
   double eviction_radius = 100.0;
 
   /// Throws std::invalid_argument with the name, the value and the allowed range of the first bad
   /// member.
-  void validate() const;
+  void validate() const {
+    constexpr double kPi = 3.141592653589793;
+    require(
+        voxel_size >= 0.01 && voxel_size <= 100.0, "voxel_size", voxel_size, "from 0.01 to 100 m");
+    require(
+        capacity >= 1 && capacity <= kMaxCapacity, "capacity", capacity, "from 1 to 2^26 voxels");
+    require(
+        max_bytes == 0 || max_bytes >= kMinBytes,
+        "max_bytes",
+        max_bytes,
+        "0 (no limit) or at least 1 MiB");
+    require(
+        points_per_surface >= 1 && points_per_surface <= kMaxPointsPerSurface,
+        "points_per_surface",
+        points_per_surface,
+        "from 1 to 120");
+    require(
+        min_point_distance >= 0.0 && min_point_distance <= 2.0 * voxel_size,
+        "min_point_distance",
+        min_point_distance,
+        "from 0 to twice the voxel size");
+    require(max_surfaces >= 1 && max_surfaces <= 8, "max_surfaces", max_surfaces, "from 1 to 8");
+    require(
+        max_surface_angle >= 0.0 && max_surface_angle <= kPi,
+        "max_surface_angle",
+        max_surface_angle,
+        "from 0 to pi rad");
+    require(
+        max_point_angle >= 0.0 && max_point_angle <= kPi,
+        "max_point_angle",
+        max_point_angle,
+        "from 0 to pi rad");
+    require(
+        eviction_radius >= voxel_size,
+        "eviction_radius",
+        eviction_radius,
+        "at least the voxel size");
+  }
+
+  static constexpr std::size_t kMaxCapacity = std::size_t{1} << 26;
+  static constexpr std::size_t kMinBytes = std::size_t{1} << 20;
+  static constexpr int kMaxPointsPerSurface = 120;
 };
 
 }  // namespace nvm

@@ -14,6 +14,12 @@ using PointId = std::uint32_t;
 /// The largest number of neighbours that one query can ask for.
 inline constexpr std::size_t kMaxNeighbors = 64;
 
+/// Which normals must agree with the normal of a query.
+enum class Gate : std::uint8_t {
+  kSurfaces,  ///< those of the surface and of the point (spec §3.6)
+  kPoints,    ///< of the point alone, for a map that keeps no sides
+};
+
 /// What a nearest-neighbour query asks for.
 struct NearestSearch {
   /// How many neighbours at most, 1 to kMaxNeighbors (larger values are clamped).
@@ -21,6 +27,8 @@ struct NearestSearch {
   /// Neighbours lie at most this far away [m], inclusive. Voxel maps reach no farther than the 27
   /// voxels around the query whatever is asked.
   double max_distance = 1.0;
+  /// Ignored by queries without a normal and by maps without normals.
+  Gate gate = Gate::kSurfaces;
 };
 
 /// One answer of a query: a stored point in the map frame.

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "nvm/map/lattice.hpp"
+#include "nvm/map/storage/lattice.hpp"
 
 namespace nvm {
 

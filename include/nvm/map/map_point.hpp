@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+
+#include "nvm/core/point_access.hpp"
+
+namespace nvm {
+
+/// A stored point of a map.
+struct MapPoint {
+  Eigen::Vector3d position;  ///< [m], map frame
+  Eigen::Vector3f
+      normal;  ///< unit length, looks at where the point was seen from; zero when it has none
+  int side;    ///< surface of its voxel: 0 front, 1 back
+};
+
+template <>
+struct PointAccess<MapPoint> {
+  static Eigen::Vector3d position(const MapPoint& point) { return point.position; }
+};
+
+/// What a map holds. Counting takes time proportional to the map.
+struct MapStats {
+  std::size_t points = 0;
+  std::size_t voxels = 0;
+  std::size_t two_sided_voxels = 0;  ///< with more than one surface
+  std::size_t surfaces = 0;
+  std::size_t memory_bytes = 0;
+};
+
+}  // namespace nvm

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "nvm/map/map_options.hpp"
+#include "nvm/map/operations/traversal.hpp"
+#include "nvm/map/storage/lattice.hpp"
+#include "nvm/map/storage/voxel_storage.hpp"
+
+namespace nvm::detail {
+
+/// The points from `min` to `max` [m], inclusive.
+struct BoxRegion {
+  Eigen::Vector3d min;
+  Eigen::Vector3d max;
+
+  bool contains(const Eigen::Vector3d& point) const {
+    return (point.array() >= min.array()).all() && (point.array() <= max.array()).all();
+  }
+  bool may_touch(const Lattice& lattice, const VoxelIndex& voxel) const {
+    const double edge = lattice.meters_per_step() * kStepsPerVoxel;
+    const Eigen::Array3d low = voxel.cast<double>().array() * edge;
+    return (low + edge >= min.array()).all() && (low <= max.array()).all();
+  }
+};
+
+/// The points at most `radius` [m] from `center`.
+struct BallRegion {
+  Eigen::Vector3d center;
+  double radius;
+
+  bool contains(const Eigen::Vector3d& point) const {
+    return radius >= 0.0 && (point - center).squaredNorm() <= radius * radius;
+  }
+  bool may_touch(const Lattice& lattice, const VoxelIndex& voxel) const {
+    return sq_distance_to_voxels(lattice, center, voxel, voxel) <= radius * radius * (1.0 + 1e-9);
+  }
+};
+
+/// Keeps of the surface at `head` only the points outside `region`. Head of what is left, or kNone.
+template <class Region>
+std::uint32_t erase_from_surface(
+    VoxelStorage& storage, const Lattice& lattice, std::uint32_t head, const Region& region) {
+  struct Point {
+    WrappedPoint position;
+    StoredNormal normal;
+  };
+  std::array<Point, MapOptions::kMaxPointsPerSurface> kept;
+  std::size_t count = 0;
+  for_each_id(storage, head, [&](PointId id) {
+    if (!region.contains(stored_position(storage, lattice, id))) {
+      kept[count++] = {
+          storage.chunk(id / kLanes).wrapped(static_cast<int>(id % kLanes)),
+          stored_normal(storage, id)};
+    }
+  });
+  if (count == storage.chunk(head).size) {
+    return head;
+  }
+  const std::uint32_t voxel = storage.chunk(head).voxel;
+  storage.release_surface(head);
+  if (count == 0) {
+    return kNone;
+  }
+  const std::uint32_t surface = storage.create_surface(voxel);
+  std::uint32_t last = surface;
+  for (std::size_t i = 0; i < count; ++i) {
+    last = storage.append(surface, last, kept[i].position, kept[i].normal);
+  }
+  return surface;
+}
+
+/// Erases the points of `region` from the voxel with the front surface `front`; a voxel without
+/// points goes. The front goes before the back: what is left of a voxel whose front is erased
+/// becomes its front.
+template <class Region>
+void erase_from_voxel(
+    VoxelStorage& storage, const Lattice& lattice, std::uint32_t front, const Region& region) {
+  const std::uint32_t voxel = storage.chunk(front).voxel;
+  std::uint32_t last = kNone;
+  for (std::uint32_t head = front; head != kNone;) {
+    const std::uint32_t next = storage.chunk(head).next_surface;
+    const std::uint32_t left = erase_from_surface(storage, lattice, head, region);
+    if (left != kNone) {
+      storage.link_surface(left, kNone);
+      if (last == kNone) {
+        storage.set_front(left);
+      } else {
+        storage.link_surface(last, left);
+      }
+      last = left;
+    }
+    head = next;
+  }
+  if (last == kNone) {
+    storage.forget_voxel(voxel);
+  }
+}
+
+template <class Region>
+void erase_region(VoxelStorage& storage, const Lattice& lattice, const Region& region) {
+  for (std::uint32_t brick = 0; brick < storage.brick_high_water(); ++brick) {
+    storage.visit_brick(brick, [&](std::uint32_t front, const VoxelIndex& index) {
+      if (region.may_touch(lattice, index)) {
+        erase_from_voxel(storage, lattice, front, region);
+      }
+    });
+  }
+}
+
+inline void erase_voxels_beyond(
+    VoxelStorage& storage, const Lattice& lattice, const Eigen::Vector3d& center, double radius) {
+  const Eigen::Vector3i middle = Eigen::Vector3i::Constant(kStepsPerVoxel / 2);
+  for (std::uint32_t brick = 0; brick < storage.brick_high_water(); ++brick) {
+    storage.visit_brick(brick, [&](std::uint32_t front, const VoxelIndex& index) {
+      if ((lattice.position(index, middle) - center).squaredNorm() > radius * radius) {
+        storage.erase_voxel(storage.chunk(front).voxel);
+      }
+    });
+  }
+}
+
+}  // namespace nvm::detail

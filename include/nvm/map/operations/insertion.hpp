@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "nvm/map/insert_stats.hpp"
+#include "nvm/map/map_options.hpp"
+#include "nvm/map/storage/lanes.hpp"
+#include "nvm/map/storage/lattice.hpp"
+#include "nvm/map/storage/stored_normal.hpp"
+#include "nvm/map/storage/voxel_cache.hpp"
+#include "nvm/map/storage/voxel_storage.hpp"
+
+namespace nvm::detail {
+
+/// Puts points into the storage by the rules of spec §3.3 to §3.5: which voxel, which of its
+/// surfaces, whether there is room, and what has to go to make room.
+class Insertion {
+ public:
+  Insertion(
+      const MapOptions& options, const Lattice& lattice, VoxelStorage& storage, VoxelCache& cache)
+      : options_(options),
+        max_surface_dot_(dot_threshold(options.max_surface_angle)),
+        min_sq_steps_(lattice.sq_steps(options.min_point_distance)),
+        storage_(storage),
+        cache_(cache) {
+    storage_.recency().begin_epoch();
+  }
+
+  /// Stores one point; a zero `normal` means none and goes to the front surface.
+  void insert(const LatticePoint& point, const StoredNormal& normal) {
+    std::uint32_t head = find_or_create(point.voxel);
+    if (head == kNone) {
+      ++stats_.map_full;
+      return;
+    }
+    const std::uint32_t voxel = storage_.chunk(head).voxel;
+    storage_.recency().use(voxel);
+    const std::uint32_t surface = surface_for(head, normal);
+    if (surface == kNone) {
+      ++stats_.map_full;
+      return;
+    }
+    add_to_surface(surface, wrap(point), normal);
+  }
+
+  InsertStats& stats() noexcept { return stats_; }
+
+ private:
+  std::uint32_t find_or_create(const VoxelIndex& index) {
+    const IndexKey key = index_key(index);
+    std::uint32_t head = cache_.find(key, index);
+    if (head != kNone) {
+      return head;
+    }
+    head = storage_.find_voxel(index);
+    if (head == kNone) {
+      if (!make_room_for_voxel(index)) {
+        return kNone;
+      }
+      head = storage_.create_voxel(index);
+      ++stats_.new_voxels;
+    }
+    cache_.remember(key, index, head);
+    return head;
+  }
+
+  /// The view-consistency judgment (paper III-B-1, spec §3.4). Head of the surface that takes the
+  /// normal, made when needed; kNone without room for it.
+  std::uint32_t surface_for(std::uint32_t front, const StoredNormal& normal) {
+    if (dot(normal, normal) == 0 || storage_.chunk(front).size == 0) {
+      return front;
+    }
+    const Choice choice = options_.surface_rule == SurfaceRule::kPaper
+                              ? first_consistent(front, normal)
+                              : smallest_angle(front, normal);
+    if (!choice.makes_new) {
+      return choice.surface;
+    }
+    const std::uint32_t voxel = storage_.chunk(front).voxel;
+    if (!make_room_for_chunk(voxel)) {
+      return kNone;
+    }
+    const std::uint32_t surface = storage_.create_surface(voxel);
+    storage_.link_surface(choice.surface, surface);
+    return surface;
+  }
+
+  struct Choice {
+    std::uint32_t surface;
+    bool makes_new;  // behind `surface`, which is the last one
+  };
+
+  /// The first surface that agrees with the normal; the last one takes whatever is left.
+  Choice first_consistent(std::uint32_t front, const StoredNormal& normal) const noexcept {
+    std::uint32_t surface = front;
+    for (int count = 1;; ++count) {
+      const PointChunk& chunk = storage_.chunk(surface);
+      if (count == options_.max_surfaces || dot(chunk.direction, normal) > max_surface_dot_) {
+        return {surface, false};
+      }
+      if (chunk.next_surface == kNone) {
+        return {surface, true};
+      }
+      surface = chunk.next_surface;
+    }
+  }
+
+  Choice smallest_angle(std::uint32_t front, const StoredNormal& normal) const noexcept {
+    int best_dot = std::numeric_limits<int>::min();
+    std::uint32_t best = front;
+    std::uint32_t last = front;
+    int count = 0;
+    for (std::uint32_t surface = front; surface != kNone;
+         surface = storage_.chunk(surface).next_surface) {
+      const int surface_dot = dot(storage_.chunk(surface).direction, normal);
+      if (surface_dot > best_dot) {
+        best_dot = surface_dot;
+        best = surface;
+      }
+      last = surface;
+      ++count;
+    }
+    const bool agrees = best_dot > max_surface_dot_;
+    return agrees || count == options_.max_surfaces ? Choice{best, false} : Choice{last, true};
+  }
+
+  void add_to_surface(std::uint32_t head, const WrappedPoint& point, const StoredNormal& normal) {
+    const int size = storage_.chunk(head).size;
+    if (size >= options_.points_per_surface) {
+      ++stats_.surface_full;
+      return;
+    }
+    const LanePoint lanes(point);
+    std::uint32_t last = head;
+    int left = size;
+    for (std::uint32_t id = head; id != kNone; id = storage_.chunk(id).next, left -= kLanes) {
+      IntLanes distances;
+      sq_distances(storage_.chunk(id), lanes, distances);
+      if ((lanes_below(distances, min_sq_steps_) & first_lanes(left)) != 0) {
+        ++stats_.too_close;
+        return;
+      }
+      last = id;
+    }
+    const bool needs_chunk = size > 0 && size % kLanes == 0;
+    if (needs_chunk && !make_room_for_chunk(storage_.chunk(head).voxel)) {
+      ++stats_.map_full;
+      return;
+    }
+    storage_.append(head, last, point, normal);
+    ++stats_.stored;
+  }
+
+  bool make_room_for_voxel(const VoxelIndex& index) {
+    const auto has_room = [&] {
+      return !storage_.voxels_exhausted() && !storage_.chunks_exhausted() &&
+             (!storage_.bricks_exhausted() ||
+              storage_.find_brick(index_key(brick_index(index))) != kNone);
+    };
+    while (!has_room()) {
+      if (storage_.voxel_count() == 0) {
+        return false;
+      }
+      evict(storage_.recency().oldest());
+    }
+    return true;
+  }
+
+  /// Never evicts `voxel`, which is about to grow.
+  bool make_room_for_chunk(std::uint32_t voxel) {
+    while (storage_.chunks_exhausted()) {
+      if (storage_.voxel_count() == 1) {
+        return false;
+      }
+      std::uint32_t oldest = storage_.recency().oldest();
+      if (oldest == voxel) {  // all voxels were used in this epoch
+        storage_.recency().remove(voxel);
+        oldest = storage_.recency().oldest();
+        storage_.recency().add(voxel);
+      }
+      evict(oldest);
+    }
+    return true;
+  }
+
+  void evict(std::uint32_t voxel) {
+    stats_.evicted_points += storage_.point_count(voxel);
+    ++stats_.evicted_voxels;
+    cache_.forget(storage_.index_of(voxel));
+    storage_.erase_voxel(voxel);
+  }
+
+  const MapOptions& options_;
+  int max_surface_dot_;
+  std::int32_t min_sq_steps_;
+  VoxelStorage& storage_;
+  VoxelCache& cache_;
+  InsertStats stats_;
+};
+
+}  // namespace nvm::detail

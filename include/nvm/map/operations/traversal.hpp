@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "nvm/map/map_point.hpp"
+#include "nvm/map/neighbor.hpp"
+#include "nvm/map/storage/lattice.hpp"
+#include "nvm/map/storage/stored_normal.hpp"
+#include "nvm/map/storage/voxel_storage.hpp"
+
+namespace nvm::detail {
+
+/// Calls visit(PointId) for each point of the surface at `head`.
+template <class Visitor>
+void for_each_id(const VoxelStorage& storage, std::uint32_t head, Visitor&& visit) {
+  int left = storage.chunk(head).size;
+  for (std::uint32_t id = head; left > 0; id = storage.chunk(id).next, left -= kLanes) {
+    for (int lane = 0; lane < std::min(left, kLanes); ++lane) {
+      visit(id * kLanes + static_cast<PointId>(lane));
+    }
+  }
+}
+
+inline Eigen::Vector3i stored_step(const VoxelStorage& storage, PointId id) {
+  const WrappedPoint point = storage.chunk(id / kLanes).wrapped(static_cast<int>(id % kLanes));
+  return {step_in_voxel(point.x), step_in_voxel(point.y), step_in_voxel(point.z)};
+}
+
+inline StoredNormal stored_normal(const VoxelStorage& storage, PointId id) {
+  return storage.normals(id / kLanes).get(static_cast<int>(id % kLanes));
+}
+
+inline Eigen::Vector3d stored_position(
+    const VoxelStorage& storage, const Lattice& lattice, PointId id) {
+  return lattice.position(
+      storage.index_of(storage.chunk(id / kLanes).voxel), stored_step(storage, id));
+}
+
+inline int side_of(const VoxelStorage& storage, PointId id) {
+  int side = 0;
+  for (std::uint32_t head = storage.head_of(storage.chunk(id / kLanes).voxel); head != kNone;
+       head = storage.chunk(head).next_surface, ++side) {
+    for (std::uint32_t chunk = head; chunk != kNone; chunk = storage.chunk(chunk).next) {
+      if (chunk == id / kLanes) {
+        return side;
+      }
+    }
+  }
+  NVM_ASSERT(false);
+  return side;
+}
+
+template <class Visitor>
+void for_each_point(const VoxelStorage& storage, const Lattice& lattice, Visitor&& visit) {
+  storage.for_each_voxel([&](std::uint32_t front, const VoxelIndex& index) {
+    int side = 0;
+    for (std::uint32_t head = front; head != kNone;
+         head = storage.chunk(head).next_surface, ++side) {
+      for_each_id(storage, head, [&](PointId id) {
+        visit(MapPoint{
+            lattice.position(index, stored_step(storage, id)),
+            load_normal(stored_normal(storage, id)),
+            side});
+      });
+    }
+  });
+}
+
+/// Squared distance from `point` to the box of the voxels `low` to `high`, inclusive [m^2].
+inline double sq_distance_to_voxels(
+    const Lattice& lattice,
+    const Eigen::Vector3d& point,
+    const VoxelIndex& low,
+    const VoxelIndex& high) {
+  const double edge = lattice.meters_per_step() * kStepsPerVoxel;
+  const Eigen::Array3d below = low.cast<double>().array() * edge - point.array();
+  const Eigen::Array3d above = point.array() - (high.cast<double>().array() + 1.0) * edge;
+  return below.max(above).max(0.0).square().sum();
+}
+
+template <class Visitor>
+void for_each_within(
+    const VoxelStorage& storage,
+    const Lattice& lattice,
+    const Eigen::Vector3d& center,
+    double radius,
+    Visitor&& visit) {
+  const double sq_radius = radius * radius;
+  if (!center.allFinite() || !(radius >= 0.0)) {
+    return;
+  }
+  const auto visit_voxel = [&](std::uint32_t front, const VoxelIndex& index) {
+    if (sq_distance_to_voxels(lattice, center, index, index) > sq_radius) {
+      return;
+    }
+    for (std::uint32_t head = front; head != kNone; head = storage.chunk(head).next_surface) {
+      for_each_id(storage, head, [&](PointId id) {
+        const Eigen::Vector3d position = lattice.position(index, stored_step(storage, id));
+        const double sq_distance = (position - center).squaredNorm();
+        if (sq_distance <= sq_radius) {
+          storage.recency().use(storage.chunk(head).voxel);
+          visit(Neighbor{position, static_cast<float>(sq_distance), id});
+        }
+      });
+    }
+  };
+  storage.for_each_voxel_near(lattice, center, radius, visit_voxel);
+}
+
+inline MapStats count_all(const VoxelStorage& storage) {
+  MapStats stats;
+  stats.points = storage.point_count();
+  stats.voxels = storage.voxel_count();
+  stats.memory_bytes = storage.memory_bytes();
+  storage.for_each_voxel([&](std::uint32_t front, const VoxelIndex&) {
+    for (std::uint32_t head = front; head != kNone; head = storage.chunk(head).next_surface) {
+      ++stats.surfaces;
+    }
+    stats.two_sided_voxels += storage.chunk(front).next_surface != kNone ? 1 : 0;
+  });
+  return stats;
+}
+
+}  // namespace nvm::detail

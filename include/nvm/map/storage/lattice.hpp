@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace nvm::detail {
+
+// Positions are kept on a lattice of 2^13 steps per voxel (37 um at 0.3 m), so that distances are
+// exact integers: the same on every processor, whatever its vector width, and for any number of
+// threads. Only the lowest 16 bits of a coordinate are stored: two points less than 4 voxels apart
+// differ by the wrapped 16-bit difference, and no query looks farther. That makes eight points
+// three 16-byte vectors, at any distance from the origin.
+inline constexpr int kStepBits = 13;
+inline constexpr int kStepsPerVoxel = 1 << kStepBits;
+
+/// Voxel indices are floor(p / d) (Eq. 4) within [-2^20, 2^20).
+inline constexpr std::int32_t kMaxVoxelIndex = 1 << 20;
+
+using VoxelIndex = Eigen::Vector3i;
+
+/// A position on the lattice: the voxel, and the steps inside it, 0 to 2^13 - 1 per axis.
+struct LatticePoint {
+  VoxelIndex voxel;
+  Eigen::Vector3i step;
+};
+
+/// The coordinate of a point modulo 8 voxels, as stored.
+struct WrappedPoint {
+  std::int16_t x, y, z;
+};
+
+enum class LatticeStatus : std::uint8_t { kInside, kNonFinite, kOutOfRange };
+
+/// Converts between the map frame [m] and the lattice.
+class Lattice {
+ public:
+  explicit Lattice(double voxel_size)
+      : voxels_per_meter_(1.0 / voxel_size),
+        meters_per_step_(voxel_size / kStepsPerVoxel),
+        steps_per_meter_(kStepsPerVoxel / voxel_size) {}
+
+  /// The lattice point of `position` [m]; `out` is written only when the result is kInside.
+  LatticeStatus locate(const Eigen::Vector3d& position, LatticePoint& out) const noexcept {
+    const Eigen::Vector3d scaled = position * voxels_per_meter_;
+    const double largest = scaled.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+    if (!(largest < kMaxVoxelIndex)) {
+      return std::isfinite(largest) ? LatticeStatus::kOutOfRange : LatticeStatus::kNonFinite;
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto truncated = static_cast<std::int32_t>(scaled[axis]);
+      const std::int32_t floor = truncated - static_cast<std::int32_t>(scaled[axis] < truncated);
+      out.voxel[axis] = floor;
+      out.step[axis] = static_cast<std::int32_t>((scaled[axis] - floor) * kStepsPerVoxel);
+    }
+    return LatticeStatus::kInside;
+  }
+
+  /// The middle of the lattice cell [m].
+  Eigen::Vector3d position(const VoxelIndex& voxel, const Eigen::Vector3i& step) const noexcept {
+    return ((voxel.cast<double>() * kStepsPerVoxel + step.cast<double>()).array() + 0.5) *
+           meters_per_step_;
+  }
+
+  double meters_per_step() const noexcept { return meters_per_step_; }
+  double voxels_per_meter() const noexcept { return voxels_per_meter_; }
+
+  float sq_meters(std::int32_t sq_steps) const noexcept {
+    return static_cast<float>(sq_steps * meters_per_step_ * meters_per_step_);
+  }
+
+  /// The square of `meters` (not NaN) in lattice steps, rounded down and at most 2^30.
+  std::int32_t sq_steps(double meters) const noexcept {
+    const double steps = meters * steps_per_meter_;
+    return static_cast<std::int32_t>(std::min(steps * steps, static_cast<double>(1 << 30)));
+  }
+
+ private:
+  double voxels_per_meter_;
+  double meters_per_step_;
+  double steps_per_meter_;
+};
+
+inline WrappedPoint wrap(const LatticePoint& point) {
+  const auto wrapped = [&](int axis) {
+    const std::uint32_t steps = (static_cast<std::uint32_t>(point.voxel[axis]) << kStepBits) +
+                                static_cast<std::uint32_t>(point.step[axis]);
+    return static_cast<std::int16_t>(static_cast<std::uint16_t>(steps));
+  };
+  return {wrapped(0), wrapped(1), wrapped(2)};
+}
+
+/// The steps inside its voxel of a stored coordinate.
+inline std::int32_t step_in_voxel(std::int16_t wrapped) {
+  return static_cast<std::uint16_t>(wrapped) & (kStepsPerVoxel - 1);
+}
+
+}  // namespace nvm::detail

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+#include "nvm/map/map_options.hpp"
+#include "nvm/map/storage/brick.hpp"
+#include "nvm/map/storage/brick_table.hpp"
+#include "nvm/map/storage/point_chunk.hpp"
+#include "nvm/map/storage/recency.hpp"
+#include "nvm/map/storage/surface_moments.hpp"
+
+namespace nvm::detail {
+
+inline constexpr std::size_t kMaxChunks = std::size_t{1}
+                                          << 29;  // a PointId is a chunk and a lane in 32 bits
+
+/// How many voxels, bricks and chunks a map has room for, whatever is inserted (spec §3.5).
+struct MapCapacity {
+  std::size_t voxels;
+  std::size_t bricks;
+  std::size_t chunks;
+
+  std::size_t bytes() const {
+    return voxels * sizeof(std::uint32_t) + Recency::bytes(voxels) + bricks * sizeof(Brick) +
+           BrickTable::max_bytes(bricks) + chunks * kBytesPerChunk;
+  }
+
+  static constexpr std::size_t kBytesPerChunk =
+      sizeof(PointChunk) + sizeof(NormalChunk) + sizeof(SurfaceMoments);
+};
+
+/// Without a limit in bytes there is room for the worst case: each voxel in a brick of its own, all
+/// surfaces full. With one, the number of voxels is cut to what fits when a brick holds 4 of them
+/// and a voxel 2 chunks, as scans of walls and clutter do, and whichever runs out first makes the
+/// map evict.
+inline MapCapacity map_capacity(const MapOptions& options) {
+  const auto surfaces = static_cast<std::size_t>(options.max_surfaces);
+  const std::size_t chunks_per_surface =
+      (static_cast<std::size_t>(options.points_per_surface) + kLanes - 1) / kLanes;
+  const auto worst_case = [&](std::size_t voxels) {
+    return MapCapacity{
+        voxels, voxels, std::min(kMaxChunks, voxels * surfaces * chunks_per_surface)};
+  };
+  const MapCapacity unlimited = worst_case(options.capacity);
+  if (options.max_bytes == 0 || unlimited.bytes() <= options.max_bytes) {
+    return unlimited;
+  }
+  const auto typical = [](std::size_t voxels) {
+    return MapCapacity{
+        voxels, std::max<std::size_t>(1, voxels / 4), std::max<std::size_t>(1, 2 * voxels)};
+  };
+  std::size_t voxels = 1;
+  for (std::size_t step = MapOptions::kMaxCapacity; step > 0; step /= 2) {  // the largest that fits
+    if (voxels + step <= options.capacity && typical(voxels + step).bytes() <= options.max_bytes) {
+      voxels += step;
+    }
+  }
+  MapCapacity capacity = typical(voxels);
+  capacity.chunks += (options.max_bytes - capacity.bytes()) / MapCapacity::kBytesPerChunk;
+  capacity.chunks = std::min(capacity.chunks, unlimited.chunks);
+  return capacity;
+}
+
+}  // namespace nvm::detail

@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+
+#include "nvm/core/assert.hpp"
+#include "nvm/map/neighbor.hpp"
+#include "nvm/map/storage/brick.hpp"
+#include "nvm/map/storage/brick_table.hpp"
+#include "nvm/map/storage/lattice.hpp"
+#include "nvm/map/storage/map_capacity.hpp"
+#include "nvm/map/storage/point_chunk.hpp"
+#include "nvm/map/storage/pool.hpp"
+#include "nvm/map/storage/recency.hpp"
+#include "nvm/map/storage/surface_moments.hpp"
+
+namespace nvm::detail {
+
+/// Where things lie: bricks of voxels, chunks of points, and the order of use. Keeps the links
+/// between them right; knows no rule of what belongs where. docs/map_layout.md has the drawing.
+class VoxelStorage {
+  // Where a free element keeps the index of the next free one.
+  auto voxel_link() noexcept {
+    return [this](std::uint32_t i) -> std::uint32_t& { return places_[i]; };
+  }
+  auto brick_link() noexcept {
+    return [this](std::uint32_t i) -> std::uint32_t& { return bricks_[i].head[0]; };
+  }
+  auto chunk_link() noexcept {
+    return [this](std::uint32_t i) -> std::uint32_t& { return chunks_[i].next; };
+  }
+
+ public:
+  explicit VoxelStorage(const MapCapacity& capacity)
+      : voxel_ids_(capacity.voxels),
+        brick_ids_(capacity.bricks),
+        chunk_ids_(capacity.chunks),
+        places_(allocate_uninitialized<std::uint32_t>(capacity.voxels)),
+        recency_(capacity.voxels),
+        bricks_(allocate_uninitialized<Brick>(capacity.bricks)),
+        chunks_(allocate_uninitialized<PointChunk>(capacity.chunks)),
+        normals_(allocate_uninitialized<NormalChunk>(capacity.chunks)),
+        moments_(allocate_uninitialized<SurfaceMoments>(capacity.chunks)) {}
+
+  // --- reading
+
+  /// The brick with `key`, or kNone.
+  std::uint32_t find_brick(IndexKey key) const noexcept { return table_.find(key); }
+  /// True when `brick` is, still, the brick with `key`.
+  bool is_brick(std::uint32_t brick, IndexKey key) const noexcept {
+    return brick < brick_ids_.high_water() && bricks_[brick].key == key;
+  }
+  const Brick& brick(std::uint32_t id) const noexcept { return bricks_[id]; }
+  const PointChunk& chunk(std::uint32_t id) const noexcept { return chunks_[id]; }
+  const NormalChunk& normals(std::uint32_t chunk) const noexcept { return normals_[chunk]; }
+
+  /// Head chunk of the voxel's front surface, or kNone when there is no such voxel.
+  std::uint32_t find_voxel(const VoxelIndex& voxel) const noexcept {
+    const std::uint32_t id = table_.find(index_key(brick_index(voxel)));
+    const int cell = cell_in_brick(voxel);
+    return id == kNone || !bricks_[id].has(cell) ? kNone
+                                                 : bricks_[id].head[static_cast<std::size_t>(cell)];
+  }
+
+  VoxelIndex index_of(std::uint32_t voxel) const noexcept {
+    return voxel_index(
+        bricks_[places_[voxel] / kBrickCells].key, static_cast<int>(places_[voxel] % kBrickCells));
+  }
+  std::uint32_t head_of(std::uint32_t voxel) const noexcept {
+    return bricks_[places_[voxel] / kBrickCells].head[places_[voxel] % kBrickCells];
+  }
+
+  /// Points in all surfaces of `voxel`.
+  std::size_t point_count(std::uint32_t voxel) const noexcept {
+    std::size_t count = 0;
+    for (std::uint32_t head = head_of(voxel); head != kNone; head = chunks_[head].next_surface) {
+      count += chunks_[head].size;
+    }
+    return count;
+  }
+
+  /// Calls visit(head, index) for each voxel, in an order that depends only on the map's history.
+  template <class Visitor>
+  void for_each_voxel(Visitor&& visit) const {
+    for (std::uint32_t id = 0; id < brick_ids_.high_water(); ++id) {
+      visit_brick(id, visit);
+    }
+  }
+  template <class Visitor>
+  void visit_brick(std::uint32_t id, Visitor&& visit) const {
+    const IndexKey key = bricks_[id].key;
+    if (key == 0) {
+      return;
+    }
+    for (std::uint64_t cells = bricks_[id].occupied; cells != 0; cells &= cells - 1) {
+      const int cell = __builtin_ctzll(cells);
+      visit(bricks_[id].head[static_cast<std::size_t>(cell)], voxel_index(key, cell));
+    }
+  }
+  /// All bricks have ids below this.
+  std::uint32_t brick_high_water() const noexcept { return brick_ids_.high_water(); }
+
+  /// Like for_each_voxel, for the bricks of which a part lies within `radius` [m] of `center`, and
+  /// maybe others.
+  template <class Visitor>
+  void for_each_voxel_near(
+      const Lattice& lattice, const Eigen::Vector3d& center, double radius, Visitor&& visit) const {
+    const double bricks_per_meter = lattice.voxels_per_meter() / kBrickEdge;
+    const Eigen::Array3d low = ((center.array() - radius) * bricks_per_meter).floor();
+    const Eigen::Array3d high = ((center.array() + radius) * bricks_per_meter).floor();
+    if (!((high - low + 1.0).prod() <
+          static_cast<double>(brick_count()))) {  // cheaper to look at all
+      for_each_voxel(visit);
+      return;
+    }
+    const VoxelIndex first = low.cast<std::int32_t>();
+    const VoxelIndex last = high.cast<std::int32_t>();
+    for (std::int32_t z = first.z(); z <= last.z(); ++z) {
+      for (std::int32_t y = first.y(); y <= last.y(); ++y) {
+        for (std::int32_t x = first.x(); x <= last.x(); ++x) {
+          const std::uint32_t id = table_.find(index_key({x, y, z}));
+          if (id != kNone) {
+            visit_brick(id, visit);
+          }
+        }
+      }
+    }
+  }
+
+  std::size_t point_count() const noexcept { return point_count_; }
+  std::size_t voxel_count() const noexcept { return voxel_ids_.taken(); }
+  std::size_t brick_count() const noexcept { return brick_ids_.taken(); }
+  const Recency& recency() const noexcept { return recency_; }
+  Recency& recency() noexcept { return recency_; }
+
+  /// Bytes in use or once used and kept for reuse.
+  std::size_t memory_bytes() const noexcept {
+    return voxel_ids_.high_water() * sizeof(std::uint32_t) +
+           recency_.used_bytes(voxel_ids_.high_water()) + brick_ids_.high_water() * sizeof(Brick) +
+           table_.bytes() + chunk_ids_.high_water() * MapCapacity::kBytesPerChunk;
+  }
+
+  // --- changing
+
+  bool voxels_exhausted() const noexcept { return voxel_ids_.exhausted(); }
+  bool bricks_exhausted() const noexcept { return brick_ids_.exhausted(); }
+  bool chunks_exhausted() const noexcept { return chunk_ids_.exhausted(); }
+
+  /// Makes the voxel `index`, used now, with an empty front surface, and returns its head. There
+  /// must be no such voxel, and room for a voxel, a chunk and, unless its brick exists, a brick.
+  /// Throws std::bad_alloc, changing nothing.
+  std::uint32_t create_voxel(const VoxelIndex& index) {
+    const std::uint32_t brick = find_or_create_brick(brick_index(index));
+    const std::uint32_t voxel = voxel_ids_.take(voxel_link());
+    const std::uint32_t head = create_surface(voxel);
+    const auto cell = static_cast<std::uint32_t>(cell_in_brick(index));
+    places_[voxel] = brick * kBrickCells + cell;
+    bricks_[brick].head[cell] = head;
+    bricks_[brick].occupied |= std::uint64_t{1} << cell;
+    recency_.add(voxel);
+    return head;
+  }
+
+  /// An empty surface of `voxel`, not linked to the others yet. There must be room for a chunk.
+  std::uint32_t create_surface(std::uint32_t voxel) noexcept {
+    const std::uint32_t head = take_chunk(voxel);
+    PointChunk& chunk = chunks_[head];
+    chunk.next_surface = kNone;
+    chunk.direction = {};
+    chunk.size = 0;
+    chunk.tight = 1;
+    moments_[head] = {};
+    return head;
+  }
+  void link_surface(std::uint32_t last_head, std::uint32_t head) noexcept {
+    chunks_[last_head].next_surface = head;
+  }
+
+  /// Adds a point to the surface at `head`, whose last chunk is `last`. There must be room for a
+  /// chunk when `last` is full. The principal direction is up to date afterwards. Returns the new
+  /// last chunk.
+  std::uint32_t append(
+      std::uint32_t head,
+      std::uint32_t last,
+      const WrappedPoint& point,
+      const StoredNormal& normal) noexcept {
+    PointChunk& surface = chunks_[head];
+    const int lane = surface.size % kLanes;
+    if (lane == 0 && surface.size > 0) {
+      const std::uint32_t added = take_chunk(surface.voxel);
+      chunks_[last].next = added;
+      last = added;
+    }
+    chunks_[last].set_position(lane, point);
+    normals_[last].set(lane, normal);
+    surface.size = static_cast<std::uint8_t>((surface.size + 1) & 0x7f);
+    moments_[head].add(normal);
+    surface.direction = principal_direction(moments_[head]);
+    surface.tight = is_tight(head) ? 1 : 0;
+    ++point_count_;
+    return last;
+  }
+
+  /// Returns all chunks of a surface. Whatever links to it must be changed by the caller.
+  void release_surface(std::uint32_t head) noexcept {
+    point_count_ -= chunks_[head].size;
+    for (std::uint32_t id = head; id != kNone;) {
+      const std::uint32_t next = chunks_[id].next;
+      chunk_ids_.give_back(id, chunk_link());
+      id = next;
+    }
+  }
+
+  /// Makes `head` the front surface of its voxel.
+  void set_front(std::uint32_t head) noexcept {
+    const std::uint32_t place = places_[chunks_[head].voxel];
+    bricks_[place / kBrickCells].head[place % kBrickCells] = head;
+  }
+
+  void erase_voxel(std::uint32_t voxel) noexcept {
+    for (std::uint32_t head = head_of(voxel); head != kNone;) {
+      const std::uint32_t next = chunks_[head].next_surface;
+      release_surface(head);
+      head = next;
+    }
+    forget_voxel(voxel);
+  }
+
+  void clear() noexcept {
+    for (std::uint32_t id = 0; id < brick_ids_.high_water(); ++id) {
+      if (bricks_[id].key != 0) {
+        table_.erase(bricks_[id].key);
+      }
+    }
+    voxel_ids_.clear();
+    brick_ids_.clear();
+    chunk_ids_.clear();
+    recency_.clear();
+    point_count_ = 0;
+  }
+
+  /// Removes a voxel whose surfaces have all been released.
+  void forget_voxel(std::uint32_t voxel) noexcept {
+    const std::uint32_t id = places_[voxel] / kBrickCells;
+    bricks_[id].occupied &= ~(std::uint64_t{1} << places_[voxel] % kBrickCells);
+    recency_.remove(voxel);
+    voxel_ids_.give_back(voxel, voxel_link());
+    if (bricks_[id].occupied == 0) {
+      erase_brick(id);
+    }
+  }
+
+ private:
+  std::uint32_t take_chunk(std::uint32_t voxel) noexcept {
+    const std::uint32_t id = chunk_ids_.take(chunk_link());
+    NVM_ASSERT(id != kNone);
+    chunks_[id].next = kNone;
+    chunks_[id].voxel = voxel;
+    return id;
+  }
+
+  bool is_tight(std::uint32_t head) const noexcept {
+    int left = chunks_[head].size;
+    for (std::uint32_t id = head; left > 0; id = chunks_[id].next, left -= kLanes) {
+      for (int lane = 0; lane < left && lane < kLanes; ++lane) {
+        if (dot(normals_[id].get(lane), chunks_[head].direction) <= kTightDot) {
+          return false;
+        }
+      }
+    }
+    return true;
+  }
+
+  std::uint32_t find_or_create_brick(const VoxelIndex& index) {
+    const IndexKey key = index_key(index);
+    const std::uint32_t found = table_.find(key);
+    if (found != kNone) {
+      return found;
+    }
+    const std::uint32_t id = brick_ids_.take(brick_link());
+    NVM_ASSERT(id != kNone);
+    try {
+      table_.insert(key, id);
+    } catch (...) {
+      bricks_[id].key = 0;
+      brick_ids_.give_back(id, brick_link());
+      throw;
+    }
+    bricks_[id].occupied = 0;
+    bricks_[id].key = key;
+    link_neighbors(id, index);
+    return id;
+  }
+
+  void link_neighbors(std::uint32_t id, const VoxelIndex& index) noexcept {
+    constexpr std::size_t kMiddle = kBricksAround / 2;
+    for (std::size_t slot = 0; slot < kBricksAround; ++slot) {
+      const auto s = static_cast<int>(slot);
+      const VoxelIndex other = index + VoxelIndex(s % 3 - 1, s / 3 % 3 - 1, s / 9 - 1);
+      const std::uint32_t neighbor = slot == kMiddle ? id : table_.find(index_key(other));
+      bricks_[id].around[slot] = neighbor;
+      if (neighbor != kNone) {
+        bricks_[neighbor].around[kBricksAround - 1 - slot] = id;
+      }
+    }
+  }
+
+  void erase_brick(std::uint32_t id) noexcept {
+    for (std::size_t slot = 0; slot < kBricksAround; ++slot) {
+      const std::uint32_t neighbor = bricks_[id].around[slot];
+      if (neighbor != kNone) {
+        bricks_[neighbor].around[kBricksAround - 1 - slot] = kNone;
+      }
+    }
+    table_.erase(bricks_[id].key);
+    bricks_[id].key = 0;
+    brick_ids_.give_back(id, brick_link());
+  }
+
+  IndexAllocator voxel_ids_;
+  IndexAllocator brick_ids_;
+  IndexAllocator chunk_ids_;
+  RawArray<std::uint32_t> places_;  // of a voxel: brick * kBrickCells + cell
+  Recency recency_;
+  BrickTable table_;
+  RawArray<Brick> bricks_;
+  RawArray<PointChunk> chunks_;
+  RawArray<NormalChunk> normals_;
+  RawArray<SurfaceMoments> moments_;  // of head chunks
+  std::size_t point_count_ = 0;
+};
+
+}  // namespace nvm::detail

@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "nvm/core/point_access.hpp"
+#include "nvm/core/require.hpp"
+#include "nvm/geometry/pose.hpp"
+#include "nvm/map/insert_stats.hpp"
+#include "nvm/map/map_concept.hpp"
+#include "nvm/map/map_options.hpp"
+#include "nvm/map/map_point.hpp"
+#include "nvm/map/neighbor.hpp"
+#include "nvm/map/operations/candidates.hpp"
+#include "nvm/map/operations/erasure.hpp"
+#include "nvm/map/operations/insertion.hpp"
+#include "nvm/map/operations/nearest_query.hpp"
+#include "nvm/map/operations/query_context.hpp"
+#include "nvm/map/operations/traversal.hpp"
+#include "nvm/map/storage/lattice.hpp"
+#include "nvm/map/storage/map_capacity.hpp"
+#include "nvm/map/storage/stored_normal.hpp"
+#include "nvm/map/storage/voxel_cache.hpp"
+#include "nvm/map/storage/voxel_storage.hpp"
+
+namespace nvm {
+
+/// The NVM voxel map (paper III-B, spec §3): points with normals in voxels that keep a front and a
+/// back surface, so that the two faces of a thin wall never meet, bounded by an exact LRU. Models
+/// the map concept.
+///
+/// - Positions are stored on a lattice of voxel_size / 8192 (37 um at 0.3 m), normals to 0.4
+/// degrees. Distances and angles
+///   are those of the stored values, in exact integer arithmetic: the same input gives the same map
+///   and the same neighbours on any machine and for any number of threads.
+/// - Coordinates reach to +-2^20 voxels per axis.
+/// - Threads: const members may run from many threads at once; every other member needs the map for
+/// itself.
+/// - Memory: never more than memory_limit_bytes(); pages are taken from the operating system as the
+/// map fills.
+/// - Queries mark the voxels that they answer from as used, which is what the LRU order goes by.
+class VoxelMap {
+ public:
+  /// Scratch state of a thread's queries; see the map concept.
+  using QueryContext = detail::VoxelQueryContext;
+
+  /// Throws std::invalid_argument when `options` are out of range, std::bad_alloc when there is no
+  /// memory for them.
+  explicit VoxelMap(const MapOptions& options = {})
+      : options_((options.validate(), options)),
+        lattice_(options.voxel_size),
+        capacity_(detail::map_capacity(options)),
+        storage_(capacity_) {
+    gate_.min_surface_dot = detail::dot_threshold(options.max_surface_angle);
+    gate_.min_point_dot = detail::dot_threshold(options.max_point_angle);
+    // Two degrees cover the rounding of the two normals and of the direction.
+    constexpr double kRounding = 0.035;
+    gate_.all_points_dot = detail::dot_threshold(
+        std::max(0.0, options.max_point_angle - detail::kTightAngle - kRounding));
+  }
+
+  const MapOptions& options() const noexcept { return options_; }
+
+  // --- insertion
+
+  /// Inserts `points` with their `normals` (ranges of equal length, in the frame scan) at
+  /// T_map_scan (Eq. 3): p_map = T p, n_map = R n. Normals have unit length and look at the sensor.
+  /// Points that cannot be stored are counted, never an error. Throws std::invalid_argument when
+  /// the lengths differ or T_map_scan is not rigid. 10 to 50 ns per point.
+  template <class Points, class Normals>
+  InsertStats insert(
+      const Points& points, const Normals& normals, const Pose& T_map_scan = Pose::Identity()) {
+    static_assert(
+        is_point_range_v<Points>, "nvm: points must be a range of points: size(), [] and x, y, z");
+    static_assert(
+        is_point_range_v<Normals>, "nvm: normals must be a range of 3-vectors as long as points");
+    require(points.size() == normals.size(), "normals.size()", normals.size(), "points.size()");
+    const Eigen::Matrix3d R = T_map_scan.linear();
+    return insert_all(
+        points.size(),
+        T_map_scan,
+        [&](std::size_t i, detail::StoredNormal& stored) {
+          const Eigen::Vector3d rotated = R * nvm::position(normals[i]);
+          const Eigen::Vector3f normal = rotated.cast<float>();
+          stored = detail::store_normal(normal);
+          return detail::is_unit(normal);
+        },
+        points);
+  }
+
+  /// Inserts points without normals: all go to the front surface of their voxel, and only ungated
+  /// queries find them. The baseline that cannot tell sides apart. Throws std::invalid_argument
+  /// when T_map_scan is not rigid.
+  template <class Points>
+  InsertStats insert_unsided(const Points& points, const Pose& T_map_scan = Pose::Identity()) {
+    static_assert(
+        is_point_range_v<Points>, "nvm: points must be a range of points: size(), [] and x, y, z");
+    return insert_all(
+        points.size(),
+        T_map_scan,
+        [](std::size_t, detail::StoredNormal& stored) {
+          stored = {};
+          return true;
+        },
+        points);
+  }
+
+  // --- queries: const, noexcept, no allocation
+
+  /// The nearest stored points in the 27 voxels around `point` (map frame, m) that agree with the
+  /// unit `normal` (spec §3.6): surfaces within max_surface_angle, points within max_point_angle.
+  /// Ascending by distance; of equally near points always the same one first. Writes to `out`,
+  /// which has room for search.count, and returns how many. Nothing is found for a point that is
+  /// not finite or out of range, or a normal that is not a unit vector.
+  std::size_t nearest(
+      const Eigen::Vector3d& point,
+      const Eigen::Vector3f& normal,
+      const NearestSearch& search,
+      Neighbor* out,
+      QueryContext& context) const noexcept {
+    if (!detail::is_unit(normal)) {
+      return 0;
+    }
+    detail::NormalGate gate = gate_;
+    gate.normal = detail::store_normal(normal);
+    if (search.gate == Gate::kPoints) {
+      return nearest_gated(point, detail::PointGate{gate}, search, out, context);
+    }
+    return nearest_gated(point, gate, search, out, context);
+  }
+
+  /// The same without normals: both sides.
+  std::size_t nearest(
+      const Eigen::Vector3d& point,
+      const NearestSearch& search,
+      Neighbor* out,
+      QueryContext& context) const noexcept {
+    return nearest_gated(point, detail::NoGate{}, search, out, context);
+  }
+
+  /// Calls visit(const Neighbor&) for every stored point within `radius` [m] of `center`, in no
+  /// particular order; the radius may be of any size.
+  template <class Visitor>
+  void for_each_within(const Eigen::Vector3d& center, double radius, Visitor&& visit) const {
+    detail::for_each_within(storage_, lattice_, center, radius, visit);
+  }
+
+  Eigen::Vector3d position(PointId id) const noexcept {
+    return detail::stored_position(storage_, lattice_, id);
+  }
+  /// Unit normal of a stored point; zero when it was inserted without one.
+  Eigen::Vector3f normal(PointId id) const noexcept {
+    return detail::load_normal(
+        storage_.normals(id / detail::kLanes).get(static_cast<int>(id % detail::kLanes)));
+  }
+  /// 0: front surface of its voxel, 1: back, and so on.
+  int side(PointId id) const noexcept { return detail::side_of(storage_, id); }
+
+  /// Calls visit(const MapPoint&) for every stored point, in an order that depends only on the
+  /// map's history.
+  template <class Visitor>
+  void for_each_point(Visitor&& visit) const {
+    detail::for_each_point(storage_, lattice_, visit);
+  }
+  std::vector<MapPoint> points() const {
+    std::vector<MapPoint> points;
+    points.reserve(size());
+    for_each_point([&](const MapPoint& point) { points.push_back(point); });
+    return points;
+  }
+
+  // --- erasing; all return the number of points erased
+
+  /// Erases the points in the box from `min` to `max` [m], inclusive.
+  std::size_t erase_box(const Eigen::Vector3d& min, const Eigen::Vector3d& max) {
+    return erase_region(detail::BoxRegion{min, max});
+  }
+  /// Erases the points at most `radius` [m] from `center`.
+  std::size_t erase_within(const Eigen::Vector3d& center, double radius) {
+    return erase_region(detail::BallRegion{center, radius});
+  }
+  /// Erases the voxels whose centre is farther than `radius` [m] from `center`: what CT-LIO does
+  /// after every scan.
+  std::size_t erase_voxels_beyond(const Eigen::Vector3d& center, double radius) {
+    const std::size_t before = size();
+    detail::erase_voxels_beyond(storage_, lattice_, center, radius);
+    cache_.clear();
+    return before - size();
+  }
+  void clear() noexcept {
+    storage_.clear();
+    cache_.clear();
+  }
+
+  // --- size
+
+  bool empty() const noexcept { return size() == 0; }
+  /// Stored points.
+  std::size_t size() const noexcept { return storage_.point_count(); }
+  std::size_t voxel_count() const noexcept { return storage_.voxel_count(); }
+  MapStats stats() const { return detail::count_all(storage_); }
+  /// Memory in use, or once used and kept for reuse.
+  std::size_t memory_bytes() const noexcept { return storage_.memory_bytes() + sizeof(*this); }
+  /// memory_bytes() never exceeds this.
+  std::size_t memory_limit_bytes() const noexcept { return capacity_.bytes() + sizeof(*this); }
+
+ private:
+  friend class MapArchive;
+
+  template <class Points, class ReadNormal>
+  InsertStats insert_all(
+      std::size_t count,
+      const Pose& T_map_scan,
+      const ReadNormal& read_normal,
+      const Points& points) {
+    if (!is_rigid(T_map_scan)) {
+      throw std::invalid_argument(
+          "nvm: T_map_scan must be rigid: finite, with an orthonormal rotation");
+    }
+    detail::Insertion insertion(options_, lattice_, storage_, cache_);
+    InsertStats& stats = insertion.stats();
+    for (std::size_t i = 0; i < count; ++i) {
+      detail::LatticePoint point;
+      detail::StoredNormal normal;
+      const detail::LatticeStatus status =
+          lattice_.locate(T_map_scan * nvm::position(points[i]), point);
+      if (status == detail::LatticeStatus::kNonFinite) {
+        ++stats.non_finite;
+      } else if (status == detail::LatticeStatus::kOutOfRange) {
+        ++stats.out_of_range;
+      } else if (!read_normal(i, normal)) {
+        ++stats.no_normal;
+      } else {
+        insertion.insert(point, normal);
+      }
+    }
+    if (options_.eviction == Eviction::kRadius) {
+      const std::size_t voxels = voxel_count();
+      stats.evicted_points +=
+          erase_voxels_beyond(T_map_scan.translation(), options_.eviction_radius);
+      stats.evicted_voxels += voxels - voxel_count();
+    }
+    storage_.recency().begin_epoch();  // the queries that follow are more recent
+    return stats;
+  }
+
+  template <class Gate>
+  std::size_t nearest_gated(
+      const Eigen::Vector3d& position,
+      const Gate& gate,
+      const NearestSearch& search,
+      Neighbor* out,
+      QueryContext& context) const noexcept {
+    detail::LatticePoint point;
+    const int wanted = static_cast<int>(std::min(search.count, kMaxNeighbors));
+    if (wanted == 0 || !(search.max_distance >= 0.0) ||
+        lattice_.locate(position, point) != detail::LatticeStatus::kInside) {
+      return 0;
+    }
+    const std::int32_t limit = lattice_.sq_steps(search.max_distance) + 1;
+    const std::int32_t guess = context.guess(wanted, limit);
+    const std::uint32_t brick =
+        context.find_brick(storage_, detail::index_key(detail::brick_index(point.voxel)));
+    const detail::NearestQuery<Gate> query(storage_, point, gate);
+    detail::Candidates found;
+    query.collect(brick, guess, wanted, found);
+    if (found.count() < wanted && guess < limit) {
+      query.collect(brick, limit, wanted, found);
+    }
+    std::array<std::uint8_t, kMaxNeighbors> order;
+    const int count = found.nearest(wanted, order.data());
+    const auto last = static_cast<std::size_t>(std::max(count, 1) - 1);
+    context.learn(wanted, count == wanted ? found.sq_distance(order[last]) : limit);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+      out[i] = answer(point, found, order[i]);
+    }
+    return static_cast<std::size_t>(count);
+  }
+
+  /// Makes a neighbour of a candidate and marks its voxel as used.
+  Neighbor answer(const detail::LatticePoint& query, const detail::Candidates& found, int index)
+      const noexcept {
+    const PointId id = found.id(index);
+    const detail::PointChunk& chunk = storage_.chunk(id / detail::kLanes);
+    storage_.recency().use(chunk.voxel);
+    const detail::WrappedPoint stored = chunk.wrapped(static_cast<int>(id % detail::kLanes));
+    const detail::WrappedPoint from = detail::wrap(query);
+    const auto difference = [](std::int16_t a, std::int16_t b) {
+      return static_cast<std::int16_t>(
+          static_cast<std::uint16_t>(a) - static_cast<std::uint16_t>(b));
+    };
+    const Eigen::Vector3i offset(
+        difference(stored.x, from.x), difference(stored.y, from.y), difference(stored.z, from.z));
+    return {
+        lattice_.position(query.voxel, query.step + offset),
+        lattice_.sq_meters(found.sq_distance(index)),
+        id};
+  }
+
+  template <class Region>
+  std::size_t erase_region(const Region& region) {
+    const std::size_t before = size();
+    detail::erase_region(storage_, lattice_, region);
+    cache_.clear();
+    return before - size();
+  }
+
+  MapOptions options_;
+  detail::Lattice lattice_;
+  detail::MapCapacity capacity_;
+  detail::VoxelStorage storage_;
+  detail::VoxelCache cache_;
+  detail::NormalGate gate_{};
+};
+
+static_assert(is_map_v<VoxelMap>);
+
+}  // namespace nvm
