@@ -25,7 +25,7 @@ std::string excerpt(const YAML::Node& node) {
 
 }  // namespace
 
-std::optional<double> parse_number(const std::string& text) {
+std::optional<double> parse_number(std::string_view text) {
   const bool has_plus = !text.empty() && text[0] == '+';
   const char* begin = text.data() + (has_plus ? 1 : 0);
   const char* end = text.data() + text.size();

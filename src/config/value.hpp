@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -51,6 +52,6 @@ class Value {
 };
 
 /// The number that all of `text` spells in the usual ways ("1e-3", "+.5", "inf"); nothing else.
-std::optional<double> parse_number(const std::string& text);
+std::optional<double> parse_number(std::string_view text);
 
 }  // namespace nvm::config

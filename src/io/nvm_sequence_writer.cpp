@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include "io/nvm_sequence_writer.hpp"
+
+#include <fmt/format.h>
+
+#include <cstring>
+
+#include "io/file.hpp"
+
+namespace nvm::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kRecordBytes = 24;
+
+std::ofstream open_for_writing(const fs::path& path) {
+  std::ofstream stream(path, std::ios::binary);
+  if (!stream) {
+    fail(path.string(), "cannot be written");
+  }
+  return stream;
+}
+
+void close(std::ofstream& stream, const fs::path& path) {
+  stream.close();
+  if (!stream) {
+    fail(path.string(), "cannot be written; is the disk full?");
+  }
+}
+
+void encode(const lio::TimedPoint& point, char* record) {
+  const float numbers[5] = {point.x, point.y, point.z, point.intensity, point.dt};
+  const std::uint16_t ring_and_pad[2] = {point.ring, 0};
+  std::memcpy(record, numbers, sizeof numbers);
+  std::memcpy(record + sizeof numbers, ring_and_pad, sizeof ring_and_pad);
+}
+
+}  // namespace
+
+NvmSequenceWriter::NvmSequenceWriter(const std::string& folder)
+    : folder_(folder), partial_(folder + ".partial") {
+  if (fs::exists(folder_)) {
+    fail(folder, "exists already");
+  }
+  std::error_code error;
+  fs::remove_all(partial_, error);
+  if (!fs::create_directories(partial_ / "scans", error)) {
+    fail(partial_.string(), "cannot be created");
+  }
+  scan_list_ = open_for_writing(partial_ / "scans.csv");
+  scan_list_ << "index,t_begin,t_end,file\n";
+}
+
+NvmSequenceWriter::~NvmSequenceWriter() {
+  std::error_code ignored;
+  fs::remove_all(partial_, ignored);
+}
+
+void NvmSequenceWriter::add_scan(const lio::Scan& scan) {
+  const std::string name = fmt::format("scans/{:06}.bin", scan_count_);
+  std::string bytes(kRecordBytes * scan.points.size(), '\0');
+  char* record = bytes.data();
+  for (const lio::TimedPoint& point : scan.points) {
+    encode(point, record);
+    record += kRecordBytes;
+  }
+  write_text(name, bytes);
+  scan_list_ << fmt::format("{},{:.9f},{:.9f},{}\n", scan_count_, scan.t_begin, scan.t_end, name);
+  ++scan_count_;
+}
+
+void NvmSequenceWriter::write_imu(const std::vector<lio::ImuSample>& samples) {
+  std::string text = "t,gx,gy,gz,ax,ay,az\n";
+  for (const lio::ImuSample& sample : samples) {
+    text += fmt::format(
+        "{:.9f},{:.9f},{:.9f},{:.9f},{:.9f},{:.9f},{:.9f}\n",
+        sample.time,
+        sample.gyro.x(),
+        sample.gyro.y(),
+        sample.gyro.z(),
+        sample.accel.x(),
+        sample.accel.y(),
+        sample.accel.z());
+  }
+  write_text("imu.csv", text);
+}
+
+void NvmSequenceWriter::write_groundtruth(const Trajectory& T_world_imu) {
+  std::string text;
+  for (const StampedPose& stamped : T_world_imu) {
+    const Eigen::Vector3d p = stamped.pose.translation();
+    const Eigen::Quaterniond q(stamped.pose.linear());
+    text += fmt::format(
+        "{:.9f} {:.9f} {:.9f} {:.9f} {:.12f} {:.12f} {:.12f} {:.12f}\n",
+        stamped.time,
+        p.x(),
+        p.y(),
+        p.z(),
+        q.x(),
+        q.y(),
+        q.z(),
+        q.w());
+  }
+  write_text("groundtruth.tum", text);
+}
+
+void NvmSequenceWriter::write_text(const std::string& name, const std::string& text) {
+  const fs::path path = partial_ / name;
+  std::ofstream stream = open_for_writing(path);
+  stream.write(text.data(), static_cast<std::streamsize>(text.size()));
+  close(stream, path);
+}
+
+void NvmSequenceWriter::commit() {
+  close(scan_list_, partial_ / "scans.csv");
+  std::error_code error;
+  fs::rename(partial_, folder_, error);
+  if (error) {
+    fail(folder_.string(), "cannot be put in place: " + error.message());
+  }
+}
+
+}  // namespace nvm::io

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "lio/sensor_data.hpp"
+#include "nvm/geometry/trajectory.hpp"
+
+namespace nvm::io {
+
+/// Writes an nvm sequence folder, one scan at a time. Everything goes to "<folder>.partial", which
+/// commit() renames: a folder with the final name is always whole. Without commit() nothing is
+/// left.
+///
+///     scans/NNNNNN.bin   24-byte little-endian records, float32 x y z intensity dt, uint16 ring,
+///     pad scans.csv          index,t_begin,t_end,file imu.csv            t,gx,gy,gz,ax,ay,az [s,
+///     rad/s, m/s^2] groundtruth.tum    T_world_imu meta.json, scene.json
+///
+/// Every member throws std::runtime_error, naming the file, when it cannot be written.
+class NvmSequenceWriter {
+ public:
+  /// Throws std::runtime_error as well when `folder` exists.
+  explicit NvmSequenceWriter(const std::string& folder);
+  ~NvmSequenceWriter();
+  NvmSequenceWriter(const NvmSequenceWriter&) = delete;
+  NvmSequenceWriter& operator=(const NvmSequenceWriter&) = delete;
+
+  void add_scan(const lio::Scan& scan);
+  void write_imu(const std::vector<lio::ImuSample>& samples);
+  void write_groundtruth(const Trajectory& T_world_imu);
+  /// A text file of the folder, such as meta.json.
+  void write_text(const std::string& name, const std::string& text);
+
+  /// Puts the folder in place.
+  void commit();
+
+ private:
+  std::filesystem::path folder_;
+  std::filesystem::path partial_;
+  std::ofstream scan_list_;
+  std::size_t scan_count_ = 0;
+};
+
+}  // namespace nvm::io

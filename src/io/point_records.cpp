@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include "io/point_records.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include "config/value.hpp"
+#include "io/file.hpp"
+#include "io/kitti.hpp"
+#include "io/line_reader.hpp"
+#include "io/pcd.hpp"
+#include "io/ply.hpp"
+
+namespace nvm::io {
+
+namespace {
+
+/// Appends the number that `word` spells as a `type`; false when it is none or does not fit.
+bool append_parsed(std::string_view word, ScalarType type, std::string& bytes) {
+  return visit_type(type, [&](auto value) {
+    using T = decltype(value);
+    if constexpr (std::is_floating_point_v<T>) {
+      const auto number = config::parse_number(word);
+      if (!number ||
+          (std::isfinite(*number) && std::abs(*number) > std::numeric_limits<T>::max())) {
+        return false;
+      }
+      append_bytes(static_cast<T>(*number), bytes);
+      return true;
+    } else {
+      const char* end = word.data() + word.size();
+      const auto [rest, error] = std::from_chars(word.data(), end, value);
+      append_bytes(value, bytes);
+      return error == std::errc() && rest == end;
+    }
+  });
+}
+
+/// Appends the values of one line; false when they are too many, too few, or no such numbers.
+bool append_text_record(const std::vector<std::string_view>& words, PointRecords& records) {
+  std::size_t at = 0;
+  for (const Field& field : records.fields) {
+    for (std::size_t i = 0; i < field.count; ++i) {
+      if (at == words.size() || !append_parsed(words[at++], field.type, records.bytes)) {
+        return false;
+      }
+    }
+  }
+  return at == words.size();
+}
+
+}  // namespace
+
+std::size_t size_of(ScalarType type) {
+  return visit_type(type, [](auto zero) { return sizeof(zero); });
+}
+
+bool is_integer(ScalarType type) {
+  return visit_type(type, [](auto zero) { return std::is_integral_v<decltype(zero)>; });
+}
+
+void PointRecords::add_field(const std::string& name, ScalarType type, std::size_t count) {
+  fields.push_back({name, type, count, record_size});
+  record_size += size_of(type) * count;
+}
+
+const Field* PointRecords::find(std::initializer_list<std::string_view> names) const {
+  for (const std::string_view name : names) {
+    for (const Field& field : fields) {
+      if (field.name == name) {
+        return &field;
+      }
+    }
+  }
+  return nullptr;
+}
+
+void append_text_records(std::string_view text, PointRecords& records) {
+  std::size_t point = 0;
+  while (point < records.size) {
+    if (text.empty()) {
+      fail(
+          records.source,
+          "is truncated: " + std::to_string(point) + " of " + std::to_string(records.size) +
+              " points are there");
+    }
+    const std::size_t end = std::min(text.find('\n'), text.size() - 1);
+    const auto words = split(text.substr(0, end + 1));
+    text.remove_prefix(end + 1);
+    if (!words.empty() && !append_text_record(words, records)) {
+      fail(records.source, "point " + std::to_string(point) + " is not one number per field");
+    }
+    point += words.empty() ? 0 : 1;
+  }
+}
+
+PointRecords checked(PointRecords records) {
+  const std::size_t record_size = records.record_size;
+  for (const Field& field : records.fields) {
+    const std::size_t room = record_size - std::min(field.offset, record_size);
+    if (field.count == 0 || field.count > room / size_of(field.type)) {
+      fail(
+          records.source,
+          "field '" + field.name + "' does not fit into a record of " +
+              std::to_string(record_size) + " bytes");
+    }
+  }
+  if (records.size > 0 && (record_size == 0 || records.size > records.bytes.size() / record_size)) {
+    fail(
+        records.source,
+        "is truncated: " + std::to_string(records.size) + " points of " +
+            std::to_string(record_size) + " bytes are announced, " +
+            std::to_string(records.bytes.size()) + " bytes are there");
+  }
+  records.bytes.resize(records.size * record_size);
+  return records;
+}
+
+PointRecords read_points(const std::string& path) {
+  const std::string extension = extension_of(path);
+  if (extension == ".pcd") {
+    return read_pcd(path);
+  }
+  if (extension == ".ply") {
+    return read_ply(path);
+  }
+  if (extension == ".bin") {
+    return read_kitti_points(path);
+  }
+  fail(path, "is not a .pcd, .ply or .bin file");
+}
+
+}  // namespace nvm::io
