@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include "lio/aligned_matcher.hpp"
+
+#include "nvm/core/require.hpp"
+
+namespace nvm::lio {
+
+AlignedMatcher::AlignedMatcher(
+    const AlignOptions& align, const PoseObservation& observation, const Executor& executor)
+    : aligner_(align), observation_(observation), executor_(executor) {
+  observation.validate();
+}
+
+MatchResult AlignedMatcher::match(const LioMap& map, PreparedScan& scan, ErrorStateFilter& filter) {
+  points_.clear();
+  normals_.clear();
+  for (const std::uint32_t index : scan.keypoints) {
+    points_.push_back(scan.scan.points[index]);
+    normals_.push_back(scan.normals[index]);
+  }
+  const NavState predicted = filter.state();
+  const AlignResult aligned =
+      aligner_.align(map, points_, normals_, predicted.T_world_lidar(), executor_);
+  MatchResult result;
+  result.accepted = aligned.status != AlignStatus::kTooFewResiduals;
+  result.iterations = aligned.iterations;
+  result.residuals = aligned.counts.valid;
+  result.inlier_share = aligned.inlier_share();
+  result.residual_rms = aligned.rms_distance;
+  result.degenerate_directions = aligned.degenerate_directions;
+  if (result.accepted) {
+    observe_lidar_pose(aligned.T_map_scan, observation_, filter);
+  }
+  return result;
+}
+
+void observe_lidar_pose(
+    const Pose& T_world_lidar, const PoseObservation& observation, ErrorStateFilter& filter) {
+  Eigen::Matrix<double, 6, 6, Eigen::DontAlign> covariance =
+      Eigen::Matrix<double, 6, 6, Eigen::DontAlign>::Zero();
+  const double translation = observation.translation_deviation;
+  const double rotation = observation.rotation_deviation;
+  covariance.diagonal().head<3>().setConstant(translation * translation);
+  covariance.diagonal().tail<3>().setConstant(rotation * rotation);
+  filter.observe_pose(T_world_lidar * filter.state().T_body_lidar.inverse(), covariance);
+}
+
+void PoseObservation::validate() const {
+  require(
+      translation_deviation > 0.0, "translation_deviation", translation_deviation, "positive [m]");
+  require(rotation_deviation > 0.0, "rotation_deviation", rotation_deviation, "positive [rad]");
+}
+
+}  // namespace nvm::lio

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "lio/motion_segment.hpp"
+#include "lio/nav_state.hpp"
+#include "lio/sensor_data.hpp"
+
+namespace nvm::lio {
+
+/// A scan as if every return had been measured from the LiDAR frame at the scan's end, the "scan
+/// frame". All vectors have one element per kept return, in order of time.
+struct DeskewedScan {
+  std::vector<Eigen::Vector3f> points;      ///< [m], scan frame
+  std::vector<Eigen::Vector3f> viewpoints;  ///< where the LiDAR was then [m], scan frame
+  std::vector<float> ages;                  ///< scan end - time of the return [s]
+
+  std::size_t size() const { return points.size(); }
+  void clear();
+};
+
+/// Which returns are used.
+struct RangeLimits {
+  double min_range = 0.3;    ///< [m]
+  double max_range = 100.0;  ///< [m]
+
+  void validate() const;
+};
+
+/// Returns left out by deskew().
+struct DeskewStats {
+  std::size_t non_finite = 0;
+  std::size_t out_of_range = 0;
+};
+
+/// Moves each return of `scan` to the scan frame by the pose at its own time. `segments`: the
+/// motion up to `end`, ascending and not empty; times before the first segment extrapolate it.
+/// Replaces `out`, whose memory is reused.
+DeskewStats deskew(
+    const Scan& scan,
+    const std::vector<MotionSegment>& segments,
+    const NavState& end,
+    const RangeLimits& limits,
+    DeskewedScan& out);
+
+/// Turns a scan deskewed with `predicted` into what it would have been with `corrected`, both
+/// states at the scan's end, to first order in their difference of velocity and gyro bias.
+void correct_deskew(const NavState& predicted, const NavState& corrected, DeskewedScan& scan);
+
+}  // namespace nvm::lio

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <vector>
+
+#include "lio/sensor_data.hpp"
+
+namespace nvm::lio {
+
+/// What became of the IMU readings given to an ImuBuffer.
+struct ImuBufferStats {
+  std::size_t accepted = 0;
+  std::size_t late = 0;        ///< older than what was already used, dropped
+  std::size_t repeated = 0;    ///< same time as another reading, dropped
+  std::size_t non_finite = 0;  ///< NaN or inf, dropped
+};
+
+/// The recent IMU readings in order of time. Readings may arrive out of order as long as the time
+/// they belong to has not been used yet.
+class ImuBuffer {
+ public:
+  void add(const ImuSample& sample);
+
+  /// The readings that describe the motion from `begin` to `end` [s]: those in between, and one at
+  /// each border, interpolated between its two neighbours. A border without a neighbour on one side
+  /// repeats the nearest reading when that is at most `max_gap` [s] away, and is left out
+  /// otherwise. Replaces `out`, ascending by time.
+  void between(double begin, double end, double max_gap, std::vector<ImuSample>& out) const;
+
+  /// Forgets what only times before `time` [s] need, and refuses older readings from now on.
+  void use_until(double time);
+
+  /// True when a reading at or after `time` [s] has arrived.
+  bool covers(double time) const { return !samples_.empty() && samples_.back().time >= time; }
+
+  const ImuBufferStats& stats() const { return stats_; }
+
+ private:
+  std::deque<ImuSample> samples_;
+  double used_until_ = -1e300;
+  ImuBufferStats stats_;
+};
+
+/// The reading a share of the way from `a` to `b` that belongs to `time` [s].
+ImuSample interpolate(const ImuSample& a, const ImuSample& b, double time);
+
+}  // namespace nvm::lio

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include "lio/imu_initializer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "nvm/core/require.hpp"
+
+namespace nvm::lio {
+
+namespace {
+
+struct WindowStatistics {
+  Eigen::Vector3d mean_gyro = Eigen::Vector3d::Zero();
+  Eigen::Vector3d mean_accel = Eigen::Vector3d::Zero();
+  double gyro_deviation = 0.0;   ///< [rad/s], of the vector
+  double accel_deviation = 0.0;  ///< [m/s^2], of the vector
+};
+
+WindowStatistics statistics_of(const std::vector<ImuSample>& window) {
+  WindowStatistics s;
+  const double share = 1.0 / static_cast<double>(window.size());
+  for (const ImuSample& sample : window) {
+    s.mean_gyro += share * sample.gyro;
+    s.mean_accel += share * sample.accel;
+  }
+  double sq_gyro = 0.0;
+  double sq_accel = 0.0;
+  for (const ImuSample& sample : window) {
+    sq_gyro += share * (sample.gyro - s.mean_gyro).squaredNorm();
+    sq_accel += share * (sample.accel - s.mean_accel).squaredNorm();
+  }
+  s.gyro_deviation = std::sqrt(sq_gyro);
+  s.accel_deviation = std::sqrt(sq_accel);
+  return s;
+}
+
+Eigen::Matrix3d levelled(const Eigen::Vector3d& up_body) {
+  return Eigen::Quaterniond::FromTwoVectors(up_body, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+}
+
+/// How unsure the first state is, one standard deviation per part. The pose is the definition of
+/// the world frame and thus exact but for what keeps the covariance regular.
+struct InitialDeviations {
+  double velocity;
+  double gyro_bias;
+  double accel_bias;
+  double gravity;
+};
+
+NavCovariance covariance_of(const InitialDeviations& deviation) {
+  NavVector sigma = NavVector::Zero();
+  sigma.segment<3>(kPosition).setConstant(1e-5);
+  sigma.segment<3>(kRotation).setConstant(1e-5);
+  sigma.segment<3>(kVelocity).setConstant(deviation.velocity);
+  sigma.segment<3>(kGyroBias).setConstant(deviation.gyro_bias);
+  sigma.segment<3>(kAccelBias).setConstant(deviation.accel_bias);
+  sigma.segment<2>(kGravity).setConstant(deviation.gravity);
+  return sigma.cwiseAbs2().asDiagonal().toDenseMatrix();
+}
+
+constexpr InitialDeviations kStill{0.01, 0.003, 0.1, 0.012};
+constexpr InitialDeviations kMoving{1.0, 0.02, 0.2, 0.1};
+
+}  // namespace
+
+ImuInitializer::ImuInitializer(const InitializerOptions& options) : options_(options) {
+  options.validate();
+}
+
+void ImuInitializer::add(const ImuSample& sample) {
+  if (window_.empty()) {
+    first_time_ = sample.time;
+  } else {
+    const double dt = sample.time - window_.back().time;
+    R_first_body_ *= so3_exp(dt * (0.5 * (sample.gyro + window_.back().gyro)));
+    force_sum_ += dt * (R_first_body_ * sample.accel);
+  }
+  window_.push_back(sample);
+  const double oldest = sample.time - options_.still_duration;
+  const auto keep = std::find_if(window_.begin(), window_.end(), [oldest](const ImuSample& s) {
+    return s.time >= oldest - 1e-9;
+  });
+  window_.erase(window_.begin(), keep);
+  state_ = still_state();
+  const double waited = sample.time - first_time_;
+  if (!state_ && options_.moving_start_after >= 0.0 && waited >= options_.moving_start_after) {
+    state_ = moving_state();
+  }
+}
+
+std::optional<InitialState> ImuInitializer::state() const { return state_; }
+
+std::optional<InitialState> ImuInitializer::still_state() {
+  constexpr std::size_t kMinSamples = 10;
+  std::ostringstream why;
+  const double span = window_.back().time - window_.front().time;
+  if (window_.size() < kMinSamples || span < 0.9 * options_.still_duration) {
+    why << "IMU initialisation needs " << options_.still_duration << " s of data";
+    why_not_ = why.str();
+    return std::nullopt;
+  }
+  const WindowStatistics s = statistics_of(window_);
+  if (s.gyro_deviation > options_.max_still_gyro || s.accel_deviation > options_.max_still_accel ||
+      s.mean_gyro.norm() > options_.max_still_rate) {
+    why << "the sensor moves: keep it still for " << options_.still_duration << " s (rate "
+        << s.mean_gyro.norm() << " +- " << s.gyro_deviation << " rad/s, specific force +- "
+        << s.accel_deviation << " m/s^2)";
+    why_not_ = why.str();
+    return std::nullopt;
+  }
+  InitialState initial;
+  initial.state.time = window_.back().time;
+  initial.state.T_world_body.linear() = levelled(s.mean_accel);
+  initial.state.gyro_bias = s.mean_gyro;
+  initial.state.accel_bias = s.mean_accel * (1.0 - options_.gravity / s.mean_accel.norm());
+  initial.state.gravity = {0.0, 0.0, -options_.gravity};
+  initial.covariance = covariance_of(kStill);
+  return initial;
+}
+
+std::optional<InitialState> ImuInitializer::moving_state() const {
+  // Over a few seconds the sensor's own acceleration averages out in a frame that does not turn.
+  InitialState initial;
+  initial.still = false;
+  initial.state.time = window_.back().time;
+  initial.state.T_world_body.linear() = levelled(force_sum_) * R_first_body_;
+  initial.state.gravity = {0.0, 0.0, -options_.gravity};
+  initial.covariance = covariance_of(kMoving);
+  return initial;
+}
+
+void InitializerOptions::validate() const {
+  require(
+      still_duration >= 0.2 && still_duration <= 10.0,
+      "still_duration",
+      still_duration,
+      "0.2 to 10 [s]");
+  require(max_still_gyro > 0.0, "max_still_gyro", max_still_gyro, "positive [rad/s]");
+  require(max_still_accel > 0.0, "max_still_accel", max_still_accel, "positive [m/s^2]");
+  require(max_still_rate > 0.0, "max_still_rate", max_still_rate, "positive [rad/s]");
+  require(
+      moving_start_after < 0.0 || moving_start_after >= still_duration,
+      "moving_start_after",
+      moving_start_after,
+      "negative (never) or at least still_duration [s]");
+  require(gravity > 1.0 && gravity < 30.0, "gravity", gravity, "1 to 30 [m/s^2]");
+}
+
+}  // namespace nvm::lio

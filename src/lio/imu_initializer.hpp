@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lio/nav_state.hpp"
+#include "lio/sensor_data.hpp"
+
+namespace nvm::lio {
+
+/// How the first state is found from the IMU alone.
+struct InitializerOptions {
+  /// Time that the sensor must keep still [s], 0.2 to 10.
+  double still_duration = 1.0;
+  /// The sensor counts as still when the standard deviation of the angular rate [rad/s] and of the
+  /// specific force [m/s^2] stay below these, and its mean rate below max_still_rate.
+  double max_still_gyro = 0.03;
+  double max_still_accel = 0.3;
+  double max_still_rate = 0.05;  ///< [rad/s]
+  /// After this long without a still moment start from the mean specific force instead, with a
+  /// correspondingly uncertain state [s]; negative: never, wait for a still moment for ever.
+  double moving_start_after = 3.0;
+  /// Magnitude of gravity [m/s^2].
+  double gravity = 9.81;
+
+  void validate() const;
+};
+
+/// The first state and how sure it is.
+struct InitialState {
+  NavState state;
+  NavCovariance covariance;
+  bool still = true;  ///< false: found while moving, see moving_start_after
+};
+
+/// Finds gravity and the gyro bias from the first IMU readings. The world frame has its origin in
+/// the first body frame, z up, and the body's initial heading as its x axis.
+class ImuInitializer {
+ public:
+  explicit ImuInitializer(const InitializerOptions& options);
+
+  /// Takes readings in order of time.
+  void add(const ImuSample& sample);
+
+  /// The state at the last reading, once it can be told; `why_not` says what is missing otherwise.
+  std::optional<InitialState> state() const;
+  const std::string& why_not() const { return why_not_; }
+
+ private:
+  std::optional<InitialState> still_state();
+  std::optional<InitialState> moving_state() const;
+
+  InitializerOptions options_;
+  std::vector<ImuSample> window_;  ///< the last still_duration seconds
+  double first_time_ = 0.0;
+  Eigen::Matrix3d R_first_body_ = Eigen::Matrix3d::Identity();  ///< by the gyro alone
+  Eigen::Vector3d force_sum_ = Eigen::Vector3d::Zero();  ///< specific force x time, first frame
+  std::optional<InitialState> state_;
+  std::string why_not_ = "no IMU data yet";
+};
+
+}  // namespace nvm::lio

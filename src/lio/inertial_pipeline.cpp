@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include "lio/inertial_pipeline.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lio/stage_timer.hpp"
+#include "nvm/core/require.hpp"
+
+namespace nvm::lio {
+
+const char* name(FrameStatus status) {
+  switch (status) {
+    case FrameStatus::kInitializing:
+      return "initializing";
+    case FrameStatus::kTracking:
+      return "tracking";
+    case FrameStatus::kWeak:
+      return "weak";
+    case FrameStatus::kLost:
+      return "lost";
+    case FrameStatus::kSkipped:
+      return "skipped";
+  }
+  return "unknown";
+}
+
+InertialPipeline::InertialPipeline(
+    const InertialOptions& options,
+    std::unique_ptr<LioMap> map,
+    std::unique_ptr<ScanMatcher> matcher,
+    const Executor& executor)
+    : options_((options.validate(), options)),
+      executor_(executor),
+      initializer_(options.initializer),
+      normal_estimator_(options.normals),
+      sampler_(options.keypoints),
+      map_(std::move(map)),
+      matcher_(std::move(matcher)) {}
+
+FrameResult InertialPipeline::process(const Scan& scan) {
+  FrameResult result;
+  result.time = scan.t_end;
+  if (!filter_ && !initialize(scan.t_end, result)) {
+    return result;
+  }
+  if (scan.points.empty() || scan.t_end < filter_->state().time) {
+    result.status = FrameStatus::kSkipped;
+    result.message =
+        scan.points.empty() ? "the scan is empty" : "the scan is older than the last one";
+    return result;
+  }
+  prepare(scan, result);
+  match(result);
+  insert(result);
+  result.T_map_body = filter_->state().T_world_body;
+  result.T_map_lidar = filter_->state().T_world_lidar();
+  return result;
+}
+
+bool InertialPipeline::initialize(double until, FrameResult& result) {
+  imu_.between(initialized_until_, until, 0.0, samples_);
+  for (const ImuSample& sample : samples_) {
+    if (sample.time <= initialized_until_) {
+      continue;
+    }
+    initializer_.add(sample);
+    initialized_until_ = sample.time;
+    if (std::optional<InitialState> initial = initializer_.state()) {
+      NavVector extrinsic = NavVector::Zero();
+      extrinsic.segment<3>(kLidarPosition).setConstant(options_.extrinsic_translation_deviation);
+      extrinsic.segment<3>(kLidarRotation).setConstant(options_.extrinsic_rotation_deviation);
+      initial->covariance.diagonal() += extrinsic.cwiseAbs2();
+      initial->state.T_body_lidar = options_.T_imu_lidar;
+      filter_.emplace(initial->state, initial->covariance, options_.imu_noise);
+      last_believed_ = sample.time;
+      result.message = initial->still ? "" : "started while moving";
+      return true;
+    }
+  }
+  result.message = initializer_.why_not();
+  return false;
+}
+
+void InertialPipeline::predict(double until) {
+  const double begin = filter_->state().time;
+  imu_.between(begin, until, options_.max_imu_gap, samples_);
+  segments_.clear();
+  for (const ImuSample& next : samples_) {
+    const double time = filter_->state().time;
+    if (next.time <= time) {
+      continue;
+    }
+    const ImuSample* previous = &next == samples_.data() ? nullptr : &next - 1;
+    const bool bridged = previous && next.time - previous->time <= options_.max_imu_gap;
+    segments_.push_back(bridged ? filter_->predict(*previous, next) : filter_->coast(next.time));
+  }
+  if (filter_->state().time < until) {
+    segments_.push_back(filter_->coast(until));
+  }
+  if (segments_.empty()) {  // a scan that ends where the last one did
+    segments_.push_back({begin, filter_->state().T_world_body, filter_->state().velocity});
+  }
+  imu_.use_until(until);
+}
+
+void InertialPipeline::prepare(const Scan& scan, FrameResult& result) {
+  {
+    const StageTimer timer(result.times.deskew);
+    predict(scan.t_end);
+    deskew(scan, segments_, filter_->state(), options_.range, prepared_.scan);
+  }
+  const StageTimer timer(result.times.normals);
+  prepared_.normals =
+      normal_estimator_.estimate(prepared_.scan.points, prepared_.scan.viewpoints, executor_)
+          .normals;
+}
+
+void InertialPipeline::match(FrameResult& result) {
+  const StageTimer timer(result.times.optimize);
+  prepared_.keypoints = sampler_.sample(prepared_.scan.points, prepared_.normals);
+  result.points = prepared_.scan.size();
+  result.keypoints = prepared_.keypoints.size();
+  if (map_->size() == 0) {
+    result.status = FrameStatus::kTracking;
+    return;
+  }
+  const ErrorStateFilter predicted = *filter_;
+  const MatchResult match = matcher_->match(*map_, prepared_, *filter_);
+  result.residuals = match.residuals;
+  result.residual_rms = match.residual_rms;
+  result.degenerate_directions = match.degenerate_directions;
+  result.iterations = match.iterations;
+  if (match.accepted && match.inlier_share >= options_.min_inlier_share) {
+    result.status = FrameStatus::kTracking;
+    last_believed_ = result.time;
+    return;
+  }
+  *filter_ = predicted;
+  const bool lost = result.time - last_believed_ > options_.max_weak_duration;
+  result.status = lost ? FrameStatus::kLost : FrameStatus::kWeak;
+  result.message = "too little of the scan fits the map";
+}
+
+void InertialPipeline::insert(FrameResult& result) {
+  if (result.status != FrameStatus::kTracking) {
+    return;
+  }
+  const StageTimer timer(result.times.map_update);
+  result.inserted =
+      map_->insert(prepared_.scan.points, prepared_.normals, filter_->state().T_world_lidar());
+}
+
+void InertialOptions::validate() const {
+  initializer.validate();
+  imu_noise.validate();
+  range.validate();
+  normals.validate();
+  keypoints.validate();
+  const auto not_negative = [](double value, const char* key) {
+    require(value >= 0.0 && std::isfinite(value), key, value, "0 or more");
+  };
+  require(max_imu_gap > 0.0, "max_imu_gap", max_imu_gap, "positive [s]");
+  require(
+      min_inlier_share >= 0.0 && min_inlier_share <= 1.0,
+      "min_inlier_share",
+      min_inlier_share,
+      "0 to 1");
+  not_negative(max_weak_duration, "max_weak_duration");
+  not_negative(extrinsic_translation_deviation, "extrinsic_translation_deviation");
+  not_negative(extrinsic_rotation_deviation, "extrinsic_rotation_deviation");
+}
+
+}  // namespace nvm::lio

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "lio/deskew.hpp"
+#include "lio/error_state_filter.hpp"
+#include "lio/executor.hpp"
+#include "lio/imu_buffer.hpp"
+#include "lio/imu_initializer.hpp"
+#include "lio/keypoints.hpp"
+#include "lio/pipeline.hpp"
+#include "lio/scan_matcher.hpp"
+#include "nvm/normal/normal_estimator.hpp"
+
+namespace nvm::lio {
+
+/// What the inertial pipelines share.
+struct InertialOptions {
+  InitializerOptions initializer;
+  ImuNoise imu_noise;
+  /// IMU readings farther apart than this [s] are a gap, which is bridged at constant velocity.
+  double max_imu_gap = 0.05;
+  RangeLimits range;
+  NormalOptions normals;
+  KeypointOptions keypoints;
+  /// A frame is believed when at least this share of its residuals fits, 0 to 1.
+  double min_inlier_share = 0.5;
+  /// Frames that are not believed for longer than this mean "lost" [s].
+  double max_weak_duration = 0.5;
+  /// Extrinsic, and how sure it is: zero deviations keep it, others let the filter estimate it.
+  Pose T_imu_lidar = Pose::Identity();
+  double extrinsic_translation_deviation = 0.0;  ///< [m]
+  double extrinsic_rotation_deviation = 0.0;     ///< [rad]
+
+  void validate() const;
+};
+
+/// The frame of both inertial pipelines: initialise from the IMU, predict to the scan's end,
+/// deskew, estimate normals on the deskewed scan with the LiDAR's place at each point's time,
+/// match, and insert what was believed. The ScanMatcher makes it FAST-LIO style or CT-LIO style.
+class InertialPipeline final : public Pipeline {
+ public:
+  InertialPipeline(
+      const InertialOptions& options,
+      std::unique_ptr<LioMap> map,
+      std::unique_ptr<ScanMatcher> matcher,
+      const Executor& executor);
+
+  void add_imu(const ImuSample& sample) override { imu_.add(sample); }
+  FrameResult process(const Scan& scan) override;
+  const LioMap& map() const override { return *map_; }
+
+  /// The filter, once initialised.
+  const std::optional<ErrorStateFilter>& filter() const { return filter_; }
+  const ImuBufferStats& imu_stats() const { return imu_.stats(); }
+
+ private:
+  bool initialize(double until, FrameResult& result);
+  void predict(double until);
+  void prepare(const Scan& scan, FrameResult& result);
+  void match(FrameResult& result);
+  void insert(FrameResult& result);
+
+  InertialOptions options_;
+  Executor executor_;
+  ImuBuffer imu_;
+  ImuInitializer initializer_;
+  NormalEstimator normal_estimator_;
+  KeypointSampler sampler_;
+  std::unique_ptr<LioMap> map_;
+  std::unique_ptr<ScanMatcher> matcher_;
+  std::optional<ErrorStateFilter> filter_;
+  double initialized_until_ = -1e300;  ///< time of the last reading given to the initializer [s]
+  double last_believed_ = 0.0;         ///< time of the last frame that was [s]
+  Eigen::Vector3d last_rate_ = Eigen::Vector3d::Zero();
+  // Kept for their memory.
+  std::vector<ImuSample> samples_;
+  std::vector<MotionSegment> segments_;
+  PreparedScan prepared_;
+};
+
+}  // namespace nvm::lio

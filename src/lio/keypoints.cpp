@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include "lio/keypoints.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "nvm/core/require.hpp"
+
+namespace nvm::lio {
+
+namespace {
+
+/// A step through [0, size) that visits each index once and neighbours far apart.
+std::size_t scattered_step(std::size_t size) {
+  constexpr double kGoldenRatio = 0.6180339887498949;
+  auto step =
+      std::max<std::size_t>(1, static_cast<std::size_t>(kGoldenRatio * static_cast<double>(size)));
+  while (std::gcd(step, size) != 1) {
+    ++step;
+  }
+  return step;
+}
+
+}  // namespace
+
+KeypointSampler::KeypointSampler(const KeypointOptions& options)
+    : options_((options.validate(), options)), cubes_(options.spacing) {}
+
+const std::vector<std::uint32_t>& KeypointSampler::sample(
+    const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& normals) {
+  chosen_.clear();
+  cubes_.clear();
+  const std::size_t size = points.size();
+  if (size == 0) {
+    return chosen_;
+  }
+  const std::size_t step = scattered_step(size);
+  std::size_t index = 0;
+  for (std::size_t i = 0; i < size && chosen_.size() < options_.max_count; ++i) {
+    if (!normals[index].isZero() &&
+        cubes_.insert(points[index].cast<double>()) == VoxelSet::Insertion::kNewCell) {
+      chosen_.push_back(static_cast<std::uint32_t>(index));
+    }
+    index = (index + step) % size;
+  }
+  std::sort(chosen_.begin(), chosen_.end());
+  return chosen_;
+}
+
+void KeypointOptions::validate() const {
+  require(spacing > 0.0 && std::isfinite(spacing), "keypoint spacing", spacing, "positive [m]");
+  require(max_count >= 10 && max_count <= 100'000, "max_keypoints", max_count, "10 to 100000");
+}
+
+}  // namespace nvm::lio

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "nvm/map/voxel_set.hpp"
+
+namespace nvm::lio {
+
+/// The returns of a scan that are matched to the map, spread evenly over its surfaces.
+struct KeypointOptions {
+  /// At most one keypoint in each cube of this edge [m], positive.
+  double spacing = 0.25;
+  /// Keypoints at most, 10 to 100000.
+  std::size_t max_count = 2000;
+
+  void validate() const;
+};
+
+/// Picks keypoints. Keeps its memory from scan to scan.
+class KeypointSampler {
+ public:
+  explicit KeypointSampler(const KeypointOptions& options);
+
+  /// Indices of the chosen points among `points` [m, scan frame], of those with a normal (not
+  /// zero). The points of a cube have equal chances whatever their place in the scan, so that no
+  /// time of the sweep is preferred; yet the same scan always gives the same answer.
+  const std::vector<std::uint32_t>& sample(
+      const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& normals);
+
+ private:
+  KeypointOptions options_;
+  VoxelSet cubes_;
+  std::vector<std::uint32_t> chosen_;
+};
+
+}  // namespace nvm::lio

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include "lio/lidar_odometry.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "lio/stage_timer.hpp"
+#include "nvm/core/require.hpp"
+
+namespace nvm::lio {
+
+LidarOdometry::LidarOdometry(
+    const LidarOdometryOptions& options, std::unique_ptr<LioMap> map, const Executor& executor)
+    : options_((options.validate(), options)),
+      executor_(executor),
+      normal_estimator_(options.normals),
+      sampler_(options.keypoints),
+      aligner_(options.align),
+      search_(options.search, executor),
+      map_(std::move(map)) {
+  predicted_.T_body_lidar = options.T_body_lidar;
+}
+
+FrameResult LidarOdometry::process(const Scan& scan) {
+  FrameResult result;
+  result.time = scan.t_end;
+  if (!is_usable(scan, result)) {
+    return result;
+  }
+  const Normals& normals = prepare(scan, result);
+  match(normals, result);
+  insert(normals, result);
+  return result;
+}
+
+bool LidarOdometry::is_usable(const Scan& scan, FrameResult& result) const {
+  if (scan.points.empty()) {
+    result.message = "the scan is empty";
+  } else if (motion_ && !(scan.t_end > predicted_.time)) {
+    result.message = "the scan is not newer than the last one";
+  }
+  if (!result.message.empty()) {
+    result.status = FrameStatus::kSkipped;
+  }
+  return result.message.empty();
+}
+
+// Straight pieces of the motion over the sweep, short enough for deskew(), and the pose at its end.
+void LidarOdometry::predict(const Scan& scan) {
+  constexpr int kPieces = 10;
+  const ConstantVelocity motion =
+      motion_.value_or(ConstantVelocity({scan.t_end, Pose::Identity()}));
+  const double piece = (scan.t_end - scan.t_begin) / kPieces;
+  segments_.clear();
+  for (int i = 0; i == 0 || (i < kPieces && piece > 0.0); ++i) {
+    segments_.push_back(motion.at(scan.t_begin + i * piece, options_.max_weak_duration));
+  }
+  predicted_.time = scan.t_end;
+  predicted_.T_world_body = motion.at(scan.t_end, options_.max_weak_duration).T_world_body;
+}
+
+const LidarOdometry::Normals& LidarOdometry::prepare(const Scan& scan, FrameResult& result) {
+  {
+    const StageTimer timer(result.times.deskew);
+    predict(scan);
+    deskew(scan, segments_, predicted_, options_.range, scan_);
+  }
+  const StageTimer timer(result.times.normals);
+  result.points = scan_.size();
+  return normal_estimator_.estimate(scan_.points, scan_.viewpoints, executor_).normals;
+}
+
+void LidarOdometry::match(const Normals& normals, FrameResult& result) {
+  const StageTimer timer(result.times.optimize);
+  key_points_.clear();
+  key_normals_.clear();
+  for (const std::uint32_t index : sampler_.sample(scan_.points, normals)) {
+    key_points_.push_back(scan_.points[index]);
+    key_normals_.push_back(normals[index]);
+  }
+  result.keypoints = key_points_.size();
+  result.T_map_lidar = predicted_.T_world_lidar();
+  if (!motion_) {
+    const bool enough = key_points_.size() >= options_.align.min_residuals;
+    result.status = enough ? FrameStatus::kTracking : FrameStatus::kInitializing;
+    result.message = enough ? "" : "the scan shows too few surfaces to begin with";
+    return;
+  }
+  const AlignResult aligned = align(normals);
+  result.residuals = aligned.counts.valid;
+  result.residual_rms = aligned.rms_distance;
+  result.degenerate_directions = aligned.degenerate_directions;
+  result.iterations = aligned.iterations;
+  if (aligned.inlier_share() >= options_.min_inlier_share &&
+      aligned.status != AlignStatus::kTooFewResiduals) {
+    result.status = FrameStatus::kTracking;
+    result.T_map_lidar = aligned.T_map_scan;
+    return;
+  }
+  const bool lost = result.time - motion_->last().time > options_.max_weak_duration;
+  result.status = lost ? FrameStatus::kLost : FrameStatus::kWeak;
+  result.message = "too little of the scan fits the map";
+}
+
+// From the prediction, and when that does not convince, from the best of several starts.
+AlignResult LidarOdometry::align(const Normals& normals) {
+  const auto from = [&](const Pose& start) {
+    return aligner_.align(*map_, key_points_, key_normals_, start, executor_);
+  };
+  const auto convinces = [&](const AlignResult& result) {
+    return result.inlier_share() >= options_.min_confident_share;
+  };
+  AlignResult best = from(predicted_.T_world_lidar());
+  if (convinces(best)) {
+    return best;
+  }
+  const Pose standing_still = motion_->last().pose * options_.T_body_lidar;
+  for (const Pose& start :
+       search_.search(scan_.points, normals, {predicted_.T_world_lidar(), standing_still})) {
+    const AlignResult result = from(start);
+    if (result.cost < best.cost) {
+      best = result;
+    }
+    if (convinces(best)) {
+      break;
+    }
+  }
+  return best;
+}
+
+void LidarOdometry::insert(const Normals& normals, FrameResult& result) {
+  const Pose T_map_body = result.T_map_lidar * options_.T_body_lidar.inverse();
+  result.T_map_body = T_map_body;
+  if (result.status != FrameStatus::kTracking) {
+    return;
+  }
+  const StageTimer timer(result.times.map_update);
+  const StampedPose pose{result.time, T_map_body};
+  if (motion_) {
+    motion_->add(pose);
+  } else {
+    motion_.emplace(pose);
+  }
+  result.inserted = map_->insert(scan_.points, normals, result.T_map_lidar);
+  search_.insert(scan_.points, normals, result.T_map_lidar);
+}
+
+void LidarOdometryOptions::validate() const {
+  range.validate();
+  normals.validate();
+  keypoints.validate();
+  align.validate();
+  search.validate();
+  require(
+      min_confident_share >= 0.0 && min_confident_share <= 1.0,
+      "min_confident_share",
+      min_confident_share,
+      "0 to 1");
+  require(
+      min_inlier_share >= 0.0 && min_inlier_share <= 1.0,
+      "min_inlier_share",
+      min_inlier_share,
+      "0 to 1");
+  require(
+      max_weak_duration >= 0.0 && std::isfinite(max_weak_duration),
+      "max_weak_duration",
+      max_weak_duration,
+      "0 or more [s]");
+  require(is_rigid(T_body_lidar), "T_body_lidar", "given", "a rigid transform");
+}
+
+}  // namespace nvm::lio

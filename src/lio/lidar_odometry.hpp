@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "lio/constant_velocity.hpp"
+#include "lio/deskew.hpp"
+#include "lio/executor.hpp"
+#include "lio/keypoints.hpp"
+#include "lio/pipeline.hpp"
+#include "lio/start_search.hpp"
+#include "nvm/normal/normal_estimator.hpp"
+#include "nvm/registration/scan_aligner.hpp"
+
+namespace nvm::lio {
+
+/// Configuration of a LidarOdometry.
+struct LidarOdometryOptions {
+  RangeLimits range;
+  NormalOptions normals;
+  KeypointOptions keypoints;
+  AlignOptions align;
+  StartSearchOptions search;
+  /// When a smaller share of the keypoints fits, other starts are searched, 0 to 1.
+  double min_confident_share = 0.8;
+  /// When a smaller share fits even then, the frame is not believed, 0 to 1.
+  double min_inlier_share = 0.5;
+  /// The velocity holds for this long without a believed frame; then the frame counts as lost and
+  /// the LiDAR is taken to stand still [s], not negative.
+  double max_weak_duration = 1.0;
+  Pose T_body_lidar = Pose::Identity();
+
+  /// Throws std::invalid_argument with the name, the value and the allowed range of the first bad
+  /// member.
+  void validate() const;
+};
+
+/// Odometry from scans alone, scan to map: predict at constant velocity, deskew where points have
+/// times, estimate normals, align to the map, insert. A frame of which too little fits is aligned
+/// again from several coarse starts, so that sudden turns at a low scan rate are followed.
+class LidarOdometry final : public Pipeline {
+ public:
+  /// Throws std::invalid_argument for bad options.
+  LidarOdometry(
+      const LidarOdometryOptions& options, std::unique_ptr<LioMap> map, const Executor& executor);
+
+  void add_imu(const ImuSample& /*sample*/) override {}
+  FrameResult process(const Scan& scan) override;
+  const LioMap& map() const override { return *map_; }
+
+ private:
+  using Normals = std::vector<Eigen::Vector3f>;
+
+  bool is_usable(const Scan& scan, FrameResult& result) const;
+  void predict(const Scan& scan);
+  const Normals& prepare(const Scan& scan, FrameResult& result);
+  void match(const Normals& normals, FrameResult& result);
+  AlignResult align(const Normals& normals);
+  void insert(const Normals& normals, FrameResult& result);
+
+  LidarOdometryOptions options_;
+  Executor executor_;
+  NormalEstimator normal_estimator_;
+  KeypointSampler sampler_;
+  ScanAligner<LioMap> aligner_;
+  StartSearch search_;
+  std::unique_ptr<LioMap> map_;
+  std::optional<ConstantVelocity> motion_;  // of the body; nothing before the first believed scan
+  NavState predicted_;                      // at the end of the scan in work
+  // Kept for their memory.
+  std::vector<MotionSegment> segments_;
+  DeskewedScan scan_;
+  std::vector<Eigen::Vector3f> key_points_, key_normals_;
+};
+
+}  // namespace nvm::lio

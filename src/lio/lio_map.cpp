@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include "lio/lio_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "nvm/map/kd_tree_map.hpp"
+
+namespace nvm::lio {
+
+namespace {
+
+using Points = std::vector<Eigen::Vector3f>;
+
+/// The points that lie on a surface, for maps that do not ask for normals.
+const Points& with_normal(const Points& points, const Points& normals, Points& kept) {
+  kept.clear();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!normals[i].isZero()) {
+      kept.push_back(points[i]);
+    }
+  }
+  return kept;
+}
+
+/// All kinds that live in a VoxelMap; they differ in what they store and how they answer.
+class VoxelLioMap : public LioMap {
+ public:
+  explicit VoxelLioMap(const MapOptions& options) : map_(options) {}
+
+  InsertStats insert(const Points& points, const Points& normals, const Pose& T_map_scan) override {
+    return map_.insert(points, normals, T_map_scan);
+  }
+
+  std::size_t nearest(
+      const Eigen::Vector3d& point,
+      const Eigen::Vector3f& normal,
+      const NearestSearch& search,
+      Neighbor* out,
+      QueryContext& context) const noexcept override {
+    return map_.nearest(point, normal, search, out, context);
+  }
+
+  std::size_t size() const override { return map_.size(); }
+  std::size_t memory_bytes() const override { return map_.memory_bytes(); }
+  std::vector<MapPoint> points() const override { return map_.points(); }
+  const VoxelMap* voxel_map() const override { return &map_; }
+
+ protected:
+  VoxelMap map_;
+};
+
+MapOptions one_surface(MapOptions options) {
+  options.max_surfaces = 1;
+  return options;
+}
+
+class UnsidedLioMap final : public VoxelLioMap {
+ public:
+  explicit UnsidedLioMap(const MapOptions& options) : VoxelLioMap(one_surface(options)) {}
+
+  InsertStats insert(const Points& points, const Points& normals, const Pose& T_map_scan) override {
+    InsertStats stats = map_.insert_unsided(with_normal(points, normals, kept_), T_map_scan);
+    stats.no_normal = points.size() - kept_.size();
+    return stats;
+  }
+
+  std::size_t nearest(
+      const Eigen::Vector3d& point,
+      const Eigen::Vector3f& /*normal*/,
+      const NearestSearch& search,
+      Neighbor* out,
+      QueryContext& context) const noexcept override {
+    return map_.nearest(point, search, out, context);
+  }
+
+ private:
+  Points kept_;
+};
+
+class FacingLioMap final : public VoxelLioMap {
+ public:
+  explicit FacingLioMap(const MapOptions& options) : VoxelLioMap(one_surface(options)) {}
+
+  std::size_t nearest(
+      const Eigen::Vector3d& point,
+      const Eigen::Vector3f& normal,
+      const NearestSearch& search,
+      Neighbor* out,
+      QueryContext& context) const noexcept override {
+    NearestSearch facing = search;
+    facing.gate = Gate::kPoints;
+    return map_.nearest(point, normal, facing, out, context);
+  }
+};
+
+class RejectLioMap final : public VoxelLioMap {
+ public:
+  explicit RejectLioMap(const MapOptions& options)
+      : VoxelLioMap(one_surface(options)),
+        min_cosine_(static_cast<float>(std::cos(options.max_point_angle))) {}
+
+  std::size_t nearest(
+      const Eigen::Vector3d& point,
+      const Eigen::Vector3f& normal,
+      const NearestSearch& search,
+      Neighbor* out,
+      QueryContext& context) const noexcept override {
+    const std::size_t count = map_.nearest(point, search, out, context);
+    const Neighbor* end = std::remove_if(out, out + count, [&](const Neighbor& neighbor) {
+      return map_.normal(neighbor.id).dot(normal) < min_cosine_;
+    });
+    return static_cast<std::size_t>(end - out);
+  }
+
+ private:
+  float min_cosine_;
+};
+
+class KdTreeLioMap final : public LioMap {
+ public:
+  explicit KdTreeLioMap(const MapOptions& options) : map_(options.min_point_distance) {}
+
+  InsertStats insert(const Points& points, const Points& normals, const Pose& T_map_scan) override {
+    InsertStats stats = map_.insert_unsided(with_normal(points, normals, kept_), T_map_scan);
+    stats.no_normal = points.size() - kept_.size();
+    return stats;
+  }
+
+  std::size_t nearest(
+      const Eigen::Vector3d& point,
+      const Eigen::Vector3f& normal,
+      const NearestSearch& search,
+      Neighbor* out,
+      QueryContext& /*context*/) const noexcept override {
+    KdTreeMap::QueryContext context;
+    return map_.nearest(point, normal, search, out, context);
+  }
+
+  std::size_t size() const override { return map_.size(); }
+  std::size_t memory_bytes() const override {
+    // Positions, and the tree's indices and nodes.
+    return map_.size() * (sizeof(Eigen::Vector3d) + 2 * sizeof(std::uint64_t));
+  }
+  std::vector<MapPoint> points() const override {
+    std::vector<MapPoint> points;
+    for (const Eigen::Vector3d& position : map_.points()) {
+      points.push_back({position, Eigen::Vector3f::Zero(), 0});
+    }
+    return points;
+  }
+
+ private:
+  KdTreeMap map_;
+  Points kept_;
+};
+
+}  // namespace
+
+std::unique_ptr<LioMap> make_map(MapType type, const MapOptions& options) {
+  switch (type) {
+    case MapType::kNvm:
+      return std::make_unique<VoxelLioMap>(options);
+    case MapType::kVoxel:
+      return std::make_unique<UnsidedLioMap>(options);
+    case MapType::kFacing:
+      return std::make_unique<FacingLioMap>(options);
+    case MapType::kReject:
+      return std::make_unique<RejectLioMap>(options);
+    case MapType::kKdTree:
+      return std::make_unique<KdTreeLioMap>(options);
+  }
+  throw std::invalid_argument("nvm: unknown map type");
+}
+
+}  // namespace nvm::lio

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "lio/lio_map.hpp"
+#include "lio/sensor_data.hpp"
+#include "nvm/geometry/pose.hpp"
+#include "nvm/map/insert_stats.hpp"
+
+namespace nvm::lio {
+
+enum class FrameStatus {
+  kInitializing,  ///< no pose yet, see FrameResult::message
+  kTracking,      ///< the pose fits the map; the scan went into the map
+  kWeak,          ///< too little of the scan fits: the pose is the prediction, the map is unchanged
+  kLost,          ///< weak for longer than max_weak_duration: do not trust the pose
+  kSkipped,       ///< the scan is empty or older than the last one
+};
+
+const char* name(FrameStatus status);
+
+/// CPU time of the whole process that each stage of a frame took [ms].
+struct StageTimes {
+  double deskew = 0.0;  ///< IMU propagation included
+  double normals = 0.0;
+  double optimize = 0.0;  ///< keypoints, association, estimation
+  double map_update = 0.0;
+
+  double pose_estimation() const { return optimize + map_update; }
+  double measurement() const { return deskew + pose_estimation(); }
+  double total() const { return measurement() + normals; }
+};
+
+/// What a pipeline says about one scan.
+struct FrameResult {
+  FrameStatus status = FrameStatus::kInitializing;
+  double time = 0.0;  ///< of the pose: the scan's end [s]
+  Pose T_map_body = Pose::Identity();
+  Pose T_map_lidar = Pose::Identity();
+  std::size_t points = 0;  ///< returns used
+  std::size_t keypoints = 0;
+  std::size_t residuals = 0;      ///< keypoints that found their surface in the map
+  double residual_rms = 0.0;      ///< [m]
+  int degenerate_directions = 0;  ///< of the pose's six, that the scan does not tell
+  int iterations = 0;
+  InsertStats inserted;
+  StageTimes times;
+  std::string message;  ///< why there is no pose, or what was done about bad data
+};
+
+/// From scans and IMU readings to poses and a map. Not safe to call from several threads at once.
+class Pipeline {
+ public:
+  virtual ~Pipeline() = default;
+
+  /// Takes an IMU reading. All readings up to a scan's end must come before that scan; a pipeline
+  /// without an IMU ignores them.
+  virtual void add_imu(const ImuSample& sample) = 0;
+
+  /// Takes the next scan in order of time.
+  virtual FrameResult process(const Scan& scan) = 0;
+
+  virtual const LioMap& map() const = 0;
+};
+
+}  // namespace nvm::lio

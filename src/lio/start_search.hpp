@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "lio/executor.hpp"
+#include "lio/keypoints.hpp"
+#include "nvm/geometry/pose.hpp"
+#include "nvm/map/voxel_map.hpp"
+#include "nvm/registration/scan_aligner.hpp"
+
+namespace nvm::lio {
+
+/// How far and how finely a StartSearch looks.
+struct StartSearchOptions {
+  /// Edge of the coarse map's voxels [m], 0.1 to 10: a start may be off by about this much.
+  double voxel_size = 1.0;
+  /// At most one keypoint in each cube of this edge [m], positive.
+  double keypoint_spacing = 1.0;
+  /// Starts are also tried turned by this angle about each axis [rad], 0 (not at all) to pi.
+  double turn = 0.5;
+
+  /// Throws std::invalid_argument with the name, the value and the allowed range of the first bad
+  /// member.
+  void validate() const;
+};
+
+/// Finds poses from which a scan can be aligned to a map when the prediction is off by more than
+/// the map's own voxels reach: aligns it to a coarse map of the same scans from several poses.
+class StartSearch {
+ public:
+  /// Throws std::invalid_argument for bad options.
+  StartSearch(const StartSearchOptions& options, const Executor& executor);
+
+  /// Adds a scan to the coarse map: points [m] and unit normals (zero: left out), scan frame.
+  void insert(
+      const std::vector<Eigen::Vector3f>& points,
+      const std::vector<Eigen::Vector3f>& normals,
+      const Pose& T_map_scan);
+
+  /// Coarse poses of a scan, those that fit best first: aligned from each of `guesses` and from
+  /// each of them turned about the scan's axes.
+  std::vector<Pose> search(
+      const std::vector<Eigen::Vector3f>& points,
+      const std::vector<Eigen::Vector3f>& normals,
+      const std::vector<Pose>& guesses);
+
+ private:
+  std::vector<Pose> starts(const std::vector<Pose>& guesses) const;
+
+  StartSearchOptions options_;
+  Executor executor_;
+  VoxelMap map_;
+  KeypointSampler sampler_;
+  ScanAligner<VoxelMap> aligner_;
+};
+
+}  // namespace nvm::lio

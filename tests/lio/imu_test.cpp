@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include <gmock/gmock.h>
+
+#include <limits>
+
+#include "lio/analytic_motion.hpp"
+#include "lio/imu_buffer.hpp"
+#include "lio/imu_initializer.hpp"
+#include "support/rng.hpp"
+
+namespace nvm::lio {
+namespace {
+
+ImuSample sample(double time, double value = 0.0) {
+  return {time, Eigen::Vector3d::Constant(value), Eigen::Vector3d::Constant(-value)};
+}
+
+std::vector<double> times(const std::vector<ImuSample>& samples) {
+  std::vector<double> result;
+  for (const ImuSample& s : samples) {
+    result.push_back(s.time);
+  }
+  return result;
+}
+
+TEST(ImuBuffer, InterpolatesASampleAtEachBorder) {
+  ImuBuffer buffer;
+  for (int i = 0; i <= 4; ++i) {
+    buffer.add(sample(i, 10.0 * i));
+  }
+  std::vector<ImuSample> found;
+  buffer.between(0.5, 3.25, 1.5, found);
+  EXPECT_THAT(times(found), ::testing::ElementsAre(0.5, 1.0, 2.0, 3.0, 3.25));
+  EXPECT_DOUBLE_EQ(found.front().gyro.x(), 5.0);
+  EXPECT_DOUBLE_EQ(found.back().gyro.x(), 32.5);
+  EXPECT_DOUBLE_EQ(found.back().accel.x(), -32.5);
+}
+
+TEST(ImuBuffer, RepeatsTheNearestReadingOnlyWithinTheGap) {
+  ImuBuffer buffer;
+  buffer.add(sample(1.0, 1.0));
+  buffer.add(sample(2.0, 2.0));
+  std::vector<ImuSample> found;
+  buffer.between(0.9, 2.1, 0.2, found);
+  EXPECT_THAT(times(found), ::testing::ElementsAre(0.9, 1.0, 2.0, 2.1));
+  buffer.between(0.0, 3.0, 0.2, found);
+  EXPECT_THAT(times(found), ::testing::ElementsAre(1.0, 2.0));
+  buffer.between(1.4, 1.6, 0.2, found);
+  EXPECT_TRUE(found.empty());
+}
+
+TEST(ImuBuffer, SortsWhatComesOutOfOrder) {
+  ImuBuffer buffer;
+  for (const double time : {3.0, 1.0, 2.0, 2.0}) {
+    buffer.add(sample(time));
+  }
+  std::vector<ImuSample> found;
+  buffer.between(1.0, 3.0, 1.5, found);
+  EXPECT_THAT(times(found), ::testing::ElementsAre(1.0, 2.0, 3.0));
+  EXPECT_EQ(buffer.stats().repeated, 1U);
+}
+
+TEST(ImuBuffer, CountsAndDropsWhatIsLateOrNotFinite) {
+  ImuBuffer buffer;
+  buffer.add(sample(1.0));
+  buffer.use_until(1.5);
+  buffer.add(sample(1.2));
+  buffer.add(sample(std::numeric_limits<double>::quiet_NaN()));
+  buffer.add(sample(2.0, std::numeric_limits<double>::infinity()));
+  EXPECT_EQ(buffer.stats().accepted, 1U);
+  EXPECT_EQ(buffer.stats().late, 1U);
+  EXPECT_EQ(buffer.stats().non_finite, 2U);
+  EXPECT_TRUE(buffer.covers(1.0));
+  EXPECT_FALSE(buffer.covers(1.1));
+}
+
+TEST(ImuInitializer, FindsTiltAndGyroBiasAtRest) {
+  auto generator = test::rng();
+  std::normal_distribution<double> noise(0.0, 1.0);
+  const auto vector = [&] {
+    return Eigen::Vector3d(noise(generator), noise(generator), noise(generator));
+  };
+  const Eigen::Vector3d bias(0.01, -0.02, 0.005);
+  const Eigen::Matrix3d R_world_body = so3_exp({0.2, -0.3, 0.0});
+  ImuInitializer initializer({});
+  for (int i = 0; i <= 240; ++i) {
+    initializer.add(
+        {0.005 * i,
+         bias + 0.002 * vector(),
+         R_world_body.transpose() * Eigen::Vector3d(0.0, 0.0, 9.81) + 0.02 * vector()});
+  }
+  const auto initial = initializer.state();
+  ASSERT_TRUE(initial);
+  EXPECT_TRUE(initial->still);
+  EXPECT_LT((initial->state.gyro_bias - bias).norm(), 1e-3);
+  const Eigen::Vector3d up =
+      initial->state.T_world_body.linear() * (R_world_body.transpose().col(2));
+  EXPECT_LT((up - Eigen::Vector3d::UnitZ()).norm(), 1e-3);
+}
+
+TEST(ImuInitializer, RefusesAMovingSensorWithAReason) {
+  InitializerOptions options;
+  options.moving_start_after = -1.0;
+  ImuInitializer initializer(options);
+  const test::AnalyticMotion motion{-10.0};
+  for (int i = 0; i < 1000; ++i) {
+    initializer.add(motion.imu(0.005 * i));
+  }
+  EXPECT_FALSE(initializer.state());
+  EXPECT_THAT(
+      initializer.why_not(), ::testing::HasSubstr("the sensor moves: keep it still for 1 s"));
+}
+
+TEST(ImuInitializer, StartsWhileMovingWithLevelWithinItsOwnUncertainty) {
+  ImuInitializer initializer({});
+  const test::AnalyticMotion motion{-10.0};
+  double time = 0.0;
+  for (; !initializer.state(); time += 0.005) {
+    ASSERT_LT(time, 5.0);
+    initializer.add(motion.imu(time));
+  }
+  const auto initial = initializer.state();
+  EXPECT_FALSE(initial->still);
+  const Eigen::Vector3d up = initial->state.T_world_body.linear() *
+                             motion.pose(initial->state.time).linear().transpose().col(2);
+  EXPECT_LT((up - Eigen::Vector3d::UnitZ()).norm(), 0.15);
+}
+
+TEST(ImuInitializer, RejectsBadOptions) {
+  InitializerOptions options;
+  options.still_duration = 0.0;
+  EXPECT_THROW(ImuInitializer{options}, std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace nvm::lio

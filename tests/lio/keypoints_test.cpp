@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include "lio/keypoints.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+#include <tuple>
+
+#include "support/rng.hpp"
+
+namespace nvm::lio {
+namespace {
+
+struct Cloud {
+  std::vector<Eigen::Vector3f> points, normals;
+};
+
+Cloud random_cloud(std::size_t size) {
+  auto generator = test::rng();
+  std::uniform_real_distribution<float> uniform(-3.0F, 3.0F);
+  Cloud cloud;
+  for (std::size_t i = 0; i < size; ++i) {
+    cloud.points.emplace_back(uniform(generator), uniform(generator), uniform(generator));
+    cloud.normals.emplace_back(i % 5 == 0 ? 0.0F : 1.0F, 0.0F, 0.0F);
+  }
+  return cloud;
+}
+
+TEST(KeypointSampler, TakesOnePointWithANormalPerCube) {
+  const Cloud cloud = random_cloud(5000);
+  KeypointSampler sampler({0.5, 100'000});
+  std::set<std::tuple<int, int, int>> expected;
+  const auto cube = [](const Eigen::Vector3f& p) {
+    const auto index = [](float x) { return static_cast<int>(std::floor(x / 0.5F)); };
+    return std::make_tuple(index(p.x()), index(p.y()), index(p.z()));
+  };
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    if (!cloud.normals[i].isZero()) {
+      expected.insert(cube(cloud.points[i]));
+    }
+  }
+  std::set<std::tuple<int, int, int>> found;
+  for (const std::uint32_t i : sampler.sample(cloud.points, cloud.normals)) {
+    EXPECT_FALSE(cloud.normals[i].isZero());
+    EXPECT_TRUE(found.insert(cube(cloud.points[i])).second);
+  }
+  EXPECT_EQ(found, expected);
+}
+
+TEST(KeypointSampler, SpreadsALimitedNumberOverTheWholeScan) {
+  const Cloud cloud = random_cloud(5000);
+  KeypointSampler sampler({0.05, 500});
+  const auto chosen = sampler.sample(cloud.points, cloud.normals);
+  ASSERT_EQ(chosen.size(), 500U);
+  double mean = 0.0;
+  for (const std::uint32_t i : chosen) {
+    mean += i / 500.0;
+  }
+  EXPECT_NEAR(mean, 2500.0, 150.0);
+  EXPECT_EQ(chosen, sampler.sample(cloud.points, cloud.normals));
+}
+
+TEST(KeypointSampler, AcceptsAnEmptyScan) {
+  KeypointSampler sampler({});
+  EXPECT_TRUE(sampler.sample({}, {}).empty());
+}
+
+TEST(KeypointSampler, RejectsBadOptions) {
+  EXPECT_THROW(KeypointSampler({0.0, 100}), std::invalid_argument);
+  EXPECT_THROW(KeypointSampler({0.1, 1}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace nvm::lio
