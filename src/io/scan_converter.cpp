@@ -93,6 +93,10 @@ void drop_no_returns(lio::Scan& scan, std::vector<double>& ticks) {
 
 }  // namespace
 
+const Field* find_time_field(const PointRecords& records) {
+  return records.find({"time", "t", "timestamp", "offset_time", "time_stamp"});
+}
+
 lio::Scan ScanConverter::convert(const PointRecords& records, double stamp) {
   lio::Scan scan;
   scan.t_begin = stamp;
@@ -111,8 +115,7 @@ lio::Scan ScanConverter::convert(const PointRecords& records, double stamp) {
       records, records.find({"intensity", "reflectivity"}), &lio::TimedPoint::intensity, scan);
   read_member(records, records.find({"ring", "line", "channel"}), &lio::TimedPoint::ring, scan);
 
-  const Field* time = records.find({"time", "t", "timestamp", "offset_time", "time_stamp"});
-  has_point_times_ = time != nullptr;
+  const Field* time = find_time_field(records);
   std::vector<double> ticks = time ? read_column(records, *time) : std::vector<double>{};
   drop_no_returns(scan, ticks);
   if (!ticks.empty()) {

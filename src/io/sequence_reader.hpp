@@ -8,10 +8,19 @@
 #include <string>
 #include <vector>
 
+#include "io/scan_converter.hpp"
 #include "lio/sensor_data.hpp"
 #include "nvm/geometry/pose.hpp"
 
 namespace nvm::io {
+
+/// How to read what a recording does not tell itself.
+struct SequenceOptions {
+  std::string lidar_topic;  ///< of a bag; empty: the first one with point clouds
+  std::string imu_topic;    ///< of a bag; empty: the first one with IMU messages
+  TimeUnit point_time_unit = TimeUnit::kAutomatic;
+  double scan_rate = 10.0;  ///< [Hz], 0.01 to 1000; of scan files without any time
+};
 
 /// What is known of a sequence before its first scan is read.
 struct SequenceInfo {
@@ -20,6 +29,7 @@ struct SequenceInfo {
   bool has_imu = false;
   bool has_point_times = false;
   Pose T_imu_lidar = Pose::Identity();  ///< extrinsic; identity when the sequence does not tell
+  std::vector<std::string> notes;       ///< what the user should know; grows while reading
 };
 
 /// Reads a recorded sequence one scan at a time, so that a sequence larger than memory can run.
@@ -39,6 +49,7 @@ class SequenceReader {
 
 /// Opens a folder of PCD, PLY or KITTI .bin scans, an nvm sequence folder, or a ROS 1 bag.
 /// Throws std::runtime_error, naming `path`, when it is none of these.
-std::unique_ptr<SequenceReader> open_sequence(const std::string& path);
+std::unique_ptr<SequenceReader> open_sequence(
+    const std::string& path, const SequenceOptions& options = {});
 
 }  // namespace nvm::io

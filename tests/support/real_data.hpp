@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+namespace nvm::test {
+
+/// The folder of real scans: $NVM_DATA, or ../shared/data beside the source tree; empty without
+/// one.
+inline std::string real_data() {
+  const char* variable = std::getenv("NVM_DATA");
+  const std::filesystem::path source_root =
+      std::filesystem::path(__FILE__).parent_path().parent_path().parent_path();
+  const std::filesystem::path folder =
+      variable != nullptr ? std::filesystem::path(variable) : source_root / "../shared/data";
+  return std::filesystem::is_directory(folder) ? folder.string() : "";
+}
+
+}  // namespace nvm::test
