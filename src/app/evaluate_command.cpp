@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include "app/evaluate_command.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "eval/evaluation.hpp"
+#include "eval/region.hpp"
+#include "eval/report.hpp"
+
+namespace nvm::app {
+namespace {
+
+struct EvaluateArguments {
+  std::vector<std::string> runs;
+  std::string truth;
+  std::string folder;
+  std::string alignment = "se3";
+  std::string regions;
+  double time_offset = 0.0;
+  eval::EvaluationOptions options;
+};
+
+/// Makes the names of runs in folders of the same name differ: nvm, nvm (2), ...
+void number_equal_names(std::vector<eval::RunEvaluation>& runs) {
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    int count = 1;
+    for (std::size_t j = i + 1; j < runs.size(); ++j) {
+      if (runs[j].name == runs[i].name) {
+        runs[j].name += fmt::format(" ({})", ++count);
+      }
+    }
+  }
+}
+
+void print_summary(const eval::RunEvaluation& run) {
+  constexpr double kMillimetres = 1e3;
+  fmt::print("{}:", run.name);
+  if (run.trajectory) {
+    fmt::print(" ATE RMSE {:.2f} mm,", kMillimetres * run.trajectory->absolute.rmse);
+  }
+  const eval::WallSummary walls = eval::summarize(run.map.walls);
+  if (walls.absolute_error) {
+    fmt::print(
+        " {} of {} walls, thickness off by {:.2f} mm (worst {:.2f}),",
+        walls.measured,
+        walls.seen,
+        kMillimetres * walls.absolute_error->mean,
+        kMillimetres * walls.absolute_error->max);
+  }
+  fmt::print(" {} map points\n", run.map.points);
+}
+
+void evaluate(EvaluateArguments& arguments) {
+  arguments.options.alignment = eval::alignment_kind(arguments.alignment);
+  eval::Evaluation evaluation;
+  if (!arguments.truth.empty()) {
+    evaluation.truth = eval::read_truth(arguments.truth, arguments.time_offset);
+  }
+  if (!arguments.regions.empty()) {
+    arguments.options.regions = eval::read_regions(arguments.regions);
+  }
+  for (const std::string& run : arguments.runs) {
+    evaluation.runs.push_back(eval::evaluate_run(run, evaluation.truth, arguments.options));
+  }
+  number_equal_names(evaluation.runs);
+  eval::write_report(evaluation, arguments.folder);
+  for (const eval::RunEvaluation& run : evaluation.runs) {
+    print_summary(run);
+  }
+  fmt::print("{0}/report.html, {0}/evaluation.json\n", arguments.folder);
+}
+
+}  // namespace
+
+void add_evaluate_command(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("evaluate", "Compare trajectories and maps of runs with the truth");
+  const auto arguments = std::make_shared<EvaluateArguments>();
+  command->add_option("RUN_DIR", arguments->runs, "Folders with trajectory.tum and map.ply")
+      ->required();
+  command->add_option(
+      "--truth",
+      arguments->truth,
+      "Sequence folder (groundtruth.tum, scene.json), or a TUM file; without: only regions and "
+      "crispness");
+  command->add_option("--out", arguments->folder, "Folder of the report")->required();
+  command->add_option("--align", arguments->alignment, "Alignment of trajectories")
+      ->check(CLI::IsMember({"se3", "sim3", "none"}))
+      ->capture_default_str();
+  command->add_option("--regions", arguments->regions, "YAML file of boxes around walls");
+  command->add_option(
+      "--time-offset", arguments->time_offset, "Added to the times of the truth [s]");
+  command
+      ->add_option(
+          "--margin", arguments->options.walls.points.margin, "Kept from the edges of walls [m]")
+      ->check(CLI::Range(0.0, 10.0))
+      ->capture_default_str();
+  command->callback([arguments] { evaluate(*arguments); });
+}
+
+}  // namespace nvm::app

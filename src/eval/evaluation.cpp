@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include "eval/evaluation.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <stdexcept>
+#include <utility>
+
+#include "eval/oriented_cloud.hpp"
+#include "io/file.hpp"
+#include "io/trajectory_io.hpp"
+
+namespace nvm::eval {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+Trajectory shifted(Trajectory trajectory, double time_offset) {
+  for (StampedPose& stamped : trajectory) {
+    stamped.time += time_offset;
+  }
+  return trajectory;
+}
+
+TrajectoryEvaluation evaluate_trajectory(
+    const std::string& path, const Trajectory& truth, AlignmentKind alignment) {
+  TrajectoryEvaluation result;
+  result.association = associate(io::read_tum(path), truth);
+  const std::vector<PosePair>& pairs = result.association.pairs;
+  if (pairs.empty()) {
+    io::fail(path, "no pose lies within the time span of the true trajectory");
+  }
+  try {
+    result.alignment = align(pairs, alignment);
+  } catch (const std::runtime_error& error) {
+    io::fail(path, error.what());
+  }
+  result.errors = position_errors(pairs, result.alignment);
+  result.absolute = *summarize(result.errors);
+  result.per_frame = relative_error(pairs, StepUnit::kFrame);
+  result.per_second = relative_error(pairs, StepUnit::kSecond);
+  result.per_metre = relative_error(pairs, StepUnit::kMetre);
+  return result;
+}
+
+MapEvaluation evaluate_map(
+    const OrientedCloud& cloud,
+    const std::vector<WallPiece>& walls,
+    const EvaluationOptions& options) {
+  MapEvaluation result;
+  result.points = cloud.points.size();
+  result.non_finite = cloud.non_finite;
+  result.has_normals = cloud.has_normals();
+  result.crispness = measure_crispness(cloud);
+  result.walls = evaluate_walls(cloud, walls, options.walls);
+  for (const Region& region : options.regions) {
+    result.regions.push_back(evaluate_region(cloud, region, options.walls));
+  }
+  return result;
+}
+
+/// Where the map of a run is in the world.
+Pose map_pose(const TrajectoryEvaluation& trajectory, AlignmentKind kind) {
+  return kind == AlignmentKind::kSim3
+             ? align(trajectory.association.pairs, AlignmentKind::kSe3).T_world_map
+             : trajectory.alignment.T_world_map;
+}
+
+/// The last part of a path that has a name: "out/nvm/" is "nvm".
+std::string folder_name(const std::string& folder) {
+  const fs::path path = fs::absolute(folder).lexically_normal();
+  return (path.has_filename() ? path : path.parent_path()).filename().string();
+}
+
+}  // namespace
+
+Truth read_truth(const std::string& path, double time_offset) {
+  if (fs::is_regular_file(path)) {
+    return {shifted(io::read_tum(path), time_offset), {}};
+  }
+  const fs::path folder(path);
+  return {
+      shifted(io::read_tum((folder / "groundtruth.tum").string()), time_offset),
+      read_walls((folder / "scene.json").string())};
+}
+
+WallSummary summarize(const std::vector<WallEvaluation>& walls) {
+  WallSummary summary;
+  std::vector<double> errors;
+  for (const WallEvaluation& wall : walls) {
+    summary.seen += wall.is_seen ? 1 : 0;
+    summary.measured += wall.thickness ? 1 : 0;
+    summary.sides += wall.sides;
+    if (wall.error()) {
+      errors.push_back(std::abs(*wall.error()));
+    }
+  }
+  summary.absolute_error = summarize(std::move(errors));
+  return summary;
+}
+
+RunEvaluation evaluate_run(
+    const std::string& folder,
+    const std::optional<Truth>& truth,
+    const EvaluationOptions& options) {
+  const fs::path run(folder);
+  RunEvaluation result;
+  result.name = folder_name(folder);
+  OrientedCloud cloud = read_oriented_cloud((run / "map.ply").string());
+  if (truth) {
+    result.trajectory = evaluate_trajectory(
+        (run / "trajectory.tum").string(), truth->trajectory, options.alignment);
+    cloud = transformed(std::move(cloud), map_pose(*result.trajectory, options.alignment));
+  }
+  result.map = evaluate_map(cloud, truth ? truth->walls : std::vector<WallPiece>(), options);
+  return result;
+}
+
+}  // namespace nvm::eval
