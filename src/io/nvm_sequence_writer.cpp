@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "io/file.hpp"
+#include "io/trajectory_io.hpp"
 
 namespace nvm::io {
 namespace {
@@ -72,9 +73,12 @@ void NvmSequenceWriter::add_scan(const lio::Scan& scan) {
 }
 
 void NvmSequenceWriter::write_imu(const std::vector<lio::ImuSample>& samples) {
-  std::string text = "t,gx,gy,gz,ax,ay,az\n";
+  if (!imu_.is_open()) {
+    imu_ = open_for_writing(partial_ / "imu.csv");
+    imu_ << "t,gx,gy,gz,ax,ay,az\n";
+  }
   for (const lio::ImuSample& sample : samples) {
-    text += fmt::format(
+    imu_ << fmt::format(
         "{:.9f},{:.9f},{:.9f},{:.9f},{:.9f},{:.9f},{:.9f}\n",
         sample.time,
         sample.gyro.x(),
@@ -84,26 +88,10 @@ void NvmSequenceWriter::write_imu(const std::vector<lio::ImuSample>& samples) {
         sample.accel.y(),
         sample.accel.z());
   }
-  write_text("imu.csv", text);
 }
 
 void NvmSequenceWriter::write_groundtruth(const Trajectory& T_world_imu) {
-  std::string text;
-  for (const StampedPose& stamped : T_world_imu) {
-    const Eigen::Vector3d p = stamped.pose.translation();
-    const Eigen::Quaterniond q(stamped.pose.linear());
-    text += fmt::format(
-        "{:.9f} {:.9f} {:.9f} {:.9f} {:.12f} {:.12f} {:.12f} {:.12f}\n",
-        stamped.time,
-        p.x(),
-        p.y(),
-        p.z(),
-        q.x(),
-        q.y(),
-        q.z(),
-        q.w());
-  }
-  write_text("groundtruth.tum", text);
+  write_tum((partial_ / "groundtruth.tum").string(), T_world_imu);
 }
 
 void NvmSequenceWriter::write_text(const std::string& name, const std::string& text) {
@@ -115,6 +103,9 @@ void NvmSequenceWriter::write_text(const std::string& name, const std::string& t
 
 void NvmSequenceWriter::commit() {
   close(scan_list_, partial_ / "scans.csv");
+  if (imu_.is_open()) {
+    close(imu_, partial_ / "imu.csv");
+  }
   std::error_code error;
   fs::rename(partial_, folder_, error);
   if (error) {

@@ -12,13 +12,9 @@
 
 namespace nvm::io {
 
-/// Writes an nvm sequence folder, one scan at a time. Everything goes to "<folder>.partial", which
-/// commit() renames: a folder with the final name is always whole. Without commit() nothing is
-/// left.
-///
-///     scans/NNNNNN.bin   24-byte little-endian records, float32 x y z intensity dt, uint16 ring,
-///     pad scans.csv          index,t_begin,t_end,file imu.csv            t,gx,gy,gz,ax,ay,az [s,
-///     rad/s, m/s^2] groundtruth.tum    T_world_imu meta.json, scene.json
+/// Writes an nvm sequence folder (docs/formats.md), one scan at a time. Everything goes to
+/// "<folder>.partial", which commit() renames: a folder with the final name is always whole.
+/// Without commit() nothing is left.
 ///
 /// Every member throws std::runtime_error, naming the file, when it cannot be written.
 class NvmSequenceWriter {
@@ -30,6 +26,7 @@ class NvmSequenceWriter {
   NvmSequenceWriter& operator=(const NvmSequenceWriter&) = delete;
 
   void add_scan(const lio::Scan& scan);
+  /// Appends to the samples written before.
   void write_imu(const std::vector<lio::ImuSample>& samples);
   void write_groundtruth(const Trajectory& T_world_imu);
   /// A text file of the folder, such as meta.json.
@@ -42,6 +39,7 @@ class NvmSequenceWriter {
   std::filesystem::path folder_;
   std::filesystem::path partial_;
   std::ofstream scan_list_;
+  std::ofstream imu_;
   std::size_t scan_count_ = 0;
 };
 

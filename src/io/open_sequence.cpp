@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "io/file.hpp"
+#include "io/nvm_sequence_reader.hpp"
 #include "io/scan_folder.hpp"
 #include "io/sequence_reader.hpp"
 
@@ -14,7 +15,7 @@ std::unique_ptr<SequenceReader> open_sequence(
     fail(path, "does not exist");
   }
   if (std::filesystem::is_directory(path)) {
-    return open_scan_folder(path, options);
+    return is_nvm_sequence(path) ? open_nvm_sequence(path) : open_scan_folder(path, options);
   }
   fail(path, "is no sequence: expected a folder of scans, an nvm sequence folder or a .bag file");
 }
