@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include "lio/pipeline_options.hpp"
+
+#include "lio/continuous_matcher.hpp"
+#include "lio/filter_matcher.hpp"
+
+namespace nvm::lio {
+
+namespace {
+
+std::unique_ptr<ScanMatcher> make_matcher(const PipelineOptions& options, const Executor& executor) {
+  switch (options.type) {
+    case PipelineType::kCtLio:
+      return std::make_unique<AlignedMatcher>(options.align, options.observation, executor);
+    case PipelineType::kCtLioContinuous:
+      return std::make_unique<ContinuousMatcher>(options.align, options.observation, executor);
+    default:
+      return std::make_unique<FilterMatcher>(options.measurement, options.iteration, executor);
+  }
+}
+
+}  // namespace
+
+PipelineOptions::PipelineOptions() {
+  map.min_point_distance = 0.05;
+  map.points_per_surface = 40;
+  inertial.normals.min_range = inertial.range.min_range;
+  inertial.normals.max_range = inertial.range.max_range;
+  align.max_iterations = 10;
+  align.converged_translation = 2e-4;
+  align.converged_rotation = 5e-5;
+}
+
+std::unique_ptr<Pipeline> make_pipeline(const PipelineOptions& options) {
+  const Executor executor(options.threads);
+  std::unique_ptr<LioMap> map = make_map(options.map_type, options.map);
+  if (options.type == PipelineType::kLidarOnly) {
+    return std::make_unique<LidarOdometry>(options.lidar_only, std::move(map), executor);
+  }
+  return std::make_unique<InertialPipeline>(
+      options.inertial, std::move(map), make_matcher(options, executor), executor);
+}
+
+}  // namespace nvm::lio

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include "config/schema.hpp"
+#include "lio/pipeline_options.hpp"
+
+namespace nvm::lio {
+
+namespace {
+
+using config::Range;
+using config::Schema;
+
+constexpr Range kShare{0.0, 1.0};
+constexpr Range kPositive{1e-12, 1e12};
+constexpr Range kNotNegative{0.0, 1e12};
+
+void bind_map(Schema& schema, PipelineOptions& options) {
+  MapOptions& map = options.map;
+  schema.add_choice<MapType>(
+      "type",
+      options.map_type,
+      {{"nvm", MapType::kNvm},
+       {"voxel", MapType::kVoxel},
+       {"facing", MapType::kFacing},
+       {"reject", MapType::kReject},
+       {"kdtree", MapType::kKdTree}},
+      "Kind of map: two-sided, without normals, with a filter in or after the query, k-d tree");
+  schema.add("voxel_size", map.voxel_size, {0.01, 100.0}, "Edge of a voxel [m]");
+  schema.add("capacity", map.capacity, {1.0, 67108864.0}, "Voxels at most");
+  schema.add("max_bytes", map.max_bytes, kNotNegative, "Memory at most; 0: what capacity needs");
+  schema.add("points_per_surface", map.points_per_surface, {1.0, 120.0}, "Points at most");
+  schema.add(
+      "min_point_distance", map.min_point_distance, {0.0, 200.0}, "Between stored points [m]");
+  schema.add("max_surfaces", map.max_surfaces, {1.0, 8.0}, "Surfaces of a voxel");
+  schema.add_choice<SurfaceRule>(
+      "surface_rule",
+      map.surface_rule,
+      {{"paper", SurfaceRule::kPaper}, {"smallest_angle", SurfaceRule::kSmallestAngle}},
+      "Which surface takes a point");
+  schema.add_angle(
+      "max_surface_angle_deg", map.max_surface_angle, {0.0, 180.0}, "Of a point to its surface");
+  schema.add_angle(
+      "max_point_angle_deg", map.max_point_angle, {0.0, 180.0}, "Of a neighbour to the query");
+  schema.add_choice<Eviction>(
+      "eviction",
+      map.eviction,
+      {{"lru", Eviction::kLeastRecentlyUsed}, {"radius", Eviction::kRadius}},
+      "What leaves the map");
+  schema.add("eviction_radius", map.eviction_radius, {0.01, 1e6}, "With eviction: radius [m]");
+}
+
+void bind_normals(Schema& schema, NormalOptions& normals) {
+  schema.add("min_radius", normals.min_radius, {0.001, 1000.0}, "Neighbourhood at min_range [m]");
+  schema.add("max_radius", normals.max_radius, {0.001, 1000.0}, "Neighbourhood at max_range [m]");
+  schema.add("min_range", normals.min_range, {0.0, 1e4}, "Where the radius begins to grow [m]");
+  schema.add("max_range", normals.max_range, {0.0, 1e4}, "Where it stops to grow [m]");
+  schema.add("min_neighbors", normals.min_neighbors, {3.0, 1e6}, "Points of a neighbourhood");
+  schema.add("max_linearity", normals.max_linearity, {0.334, 1.0}, "First eigenvalue's share");
+  schema.add(
+      "max_surface_variation", normals.max_surface_variation, {0.0, 0.334}, "Third one's share");
+}
+
+void bind_imu(Schema& schema, InertialOptions& inertial) {
+  ImuNoise& noise = inertial.imu_noise;
+  schema.add("gyro_noise", noise.gyro, kPositive, "[rad/s/sqrt(Hz)]");
+  schema.add("accel_noise", noise.accel, kPositive, "[m/s^2/sqrt(Hz)]");
+  schema.add("gyro_bias_walk", noise.gyro_bias, kPositive, "[rad/s^2/sqrt(Hz)]");
+  schema.add("accel_bias_walk", noise.accel_bias, kPositive, "[m/s^3/sqrt(Hz)]");
+  schema.add("max_gap", inertial.max_imu_gap, kPositive, "Longest time between readings [s]");
+  InitializerOptions& initializer = inertial.initializer;
+  schema.add("still_duration", initializer.still_duration, {0.2, 10.0}, "Stillness at start [s]");
+  schema.add("max_still_gyro", initializer.max_still_gyro, kPositive, "[rad/s]");
+  schema.add("max_still_accel", initializer.max_still_accel, kPositive, "[m/s^2]");
+  schema.add("max_still_rate", initializer.max_still_rate, kPositive, "[rad/s]");
+  schema.add(
+      "moving_start_after",
+      initializer.moving_start_after,
+      "Start while moving after this long [s]; negative: never");
+  schema.add("gravity", initializer.gravity, {1.0, 30.0}, "[m/s^2]");
+}
+
+void bind_lidar(Schema& schema, InertialOptions& inertial) {
+  schema.add("min_range", inertial.range.min_range, kNotNegative, "Nearer returns are dropped [m]");
+  schema.add("max_range", inertial.range.max_range, kPositive, "Farther ones too [m]");
+  schema.add(
+      "extrinsic_translation_deviation",
+      inertial.extrinsic_translation_deviation,
+      kNotNegative,
+      "How unsure it is [m]; 0: not estimated");
+  schema.add(
+      "extrinsic_rotation_deviation",
+      inertial.extrinsic_rotation_deviation,
+      kNotNegative,
+      "How unsure it is [rad]; 0: not estimated");
+}
+
+void bind_matching(Schema& schema, PipelineOptions& options) {
+  InertialOptions& inertial = options.inertial;
+  schema.add("keypoint_spacing", inertial.keypoints.spacing, kPositive, "[m]");
+  schema.add("max_keypoints", inertial.keypoints.max_count, {10.0, 1e5}, "Per scan");
+  schema.add("min_inlier_share", inertial.min_inlier_share, kShare, "Of a frame to be believed");
+  schema.add("max_weak_duration", inertial.max_weak_duration, kNotNegative, "Until lost [s]");
+}
+
+void bind_filter(Schema& schema, PipelineOptions& options) {
+  MeasurementOptions& m = options.measurement;
+  schema.add("neighbors", m.neighbors, {3.0, 64.0}, "Of a point, at most");
+  schema.add("min_neighbors", m.min_neighbors, {3.0, 64.0}, "Of a point, at least");
+  schema.add("max_neighbor_distance", m.max_neighbor_distance, kPositive, "[m]");
+  schema.add("max_plane_distance", m.max_plane_distance, kPositive, "[m]");
+  schema.add("max_plane_deviation", m.max_plane_deviation, kPositive, "[m]");
+  schema.add("range_deviation", m.range_deviation, kPositive, "Of a return along the beam [m]");
+  schema.add("beam_deviation", m.beam_deviation, kPositive, "Of a return across it [rad]");
+  schema.add("huber", m.huber, kPositive, "Residuals beyond pull less [standard deviations]");
+  schema.add("correlation", m.correlation, {1.0, 1e6}, "Residuals that count as one");
+  schema.add("min_residuals", m.min_residuals, {6.0, 1e6}, "Of an update");
+  schema.add("min_observability", m.min_observability, kShare, "Of a direction of the pose");
+  IterationOptions& iteration = options.iteration;
+  schema.add("max_iterations", iteration.max_iterations, {1.0, 50.0}, "Of an update");
+  schema.add("converged_translation", iteration.max_converged_translation, kPositive, "[m]");
+  schema.add("converged_rotation", iteration.max_converged_rotation, kPositive, "[rad]");
+}
+
+void bind_optimization(Schema& schema, PipelineOptions& options) {
+  AssociationOptions& association = options.align.association;
+  schema.add("neighbors", association.neighbors, {3.0, 64.0}, "Of a point, at most");
+  schema.add("min_neighbors", association.min_neighbors, {3.0, 64.0}, "Of a point, at least");
+  schema.add("max_neighbor_distance", association.max_neighbor_distance, kPositive, "[m]");
+  schema.add("max_plane_distance", association.max_plane_distance, kPositive, "[m]");
+  schema.add("planarity_share", association.planarity_share, kShare, "Of the weight (alpha)");
+  schema.add("kernel_scale", options.align.kernel.scale, kPositive, "Of the robust loss [m]");
+  schema.add("max_iterations", options.align.max_iterations, {1.0, 1000.0}, "Of a scan");
+  schema.add("min_residuals", options.align.min_residuals, {6.0, 1e6}, "Of a scan");
+  schema.add("min_observability", options.align.min_observability, kShare, "Of a direction");
+  PoseObservation& observation = options.observation;
+  schema.add("translation_deviation", observation.translation_deviation, kPositive, "[m]");
+  schema.add("rotation_deviation", observation.rotation_deviation, kPositive, "[rad]");
+}
+
+}  // namespace
+
+void bind(Schema& schema, PipelineOptions& options) {
+  schema.add_choice<PipelineType>(
+      "pipeline",
+      options.type,
+      {{"fast_lio", PipelineType::kFastLio},
+       {"ct_lio", PipelineType::kCtLio},
+       {"ct_lio_continuous", PipelineType::kCtLioContinuous},
+       {"lidar_only", PipelineType::kLidarOnly}},
+      "How poses are estimated");
+  schema.add("threads", options.threads, {1.0, 256.0}, "Threads; the result does not depend on it");
+  bind_map(schema.section("map", "The map"), options);
+  bind_normals(schema.section("normals", "Normals of a scan"), options.inertial.normals);
+  bind_imu(schema.section("imu", "The IMU"), options.inertial);
+  bind_lidar(schema.section("lidar", "The LiDAR"), options.inertial);
+  bind_matching(schema.section("matching", "Keypoints, and when to believe a frame"), options);
+  bind_filter(schema.section("fast_lio", "Iterated Kalman filter"), options);
+  bind_optimization(schema.section("ct_lio", "Scan-to-map optimisation"), options);
+}
+
+}  // namespace nvm::lio
