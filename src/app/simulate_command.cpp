@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include "app/simulate_command.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "config/schema.hpp"
+#include "sim/scene_file.hpp"
+#include "sim/simulation.hpp"
+
+namespace nvm::app {
+namespace {
+
+struct SimulateArguments {
+  std::string scene;
+  std::string folder;
+  std::vector<std::string> overrides;
+  std::string options_file;
+  bool lists_scenes = false;
+  bool lists_sensors = false;
+  bool prints_options = false;
+  sim::SimulationOptions options;
+};
+
+void list_scenes() {
+  for (const std::string& name : sim::shipped_scenes()) {
+    fmt::print("{:<12} {}\n", name, sim::load_scene(name).description);
+  }
+}
+
+void list_sensors() {
+  for (const sim::SensorModel& sensor : sim::sensor_models()) {
+    fmt::print("{:<12} {}\n", sensor.name, sensor.description);
+  }
+}
+
+void simulate(SimulateArguments& arguments) {
+  if (arguments.scene.empty() || arguments.folder.empty()) {
+    throw CLI::RequiredError("SCENE and --out");
+  }
+  const auto summary =
+      sim::simulate(sim::load_scene(arguments.scene), arguments.options, arguments.folder);
+  fmt::print(
+      "{}: {} scans, {} points, {} IMU samples, {:.1f} s, {:.1f} m\n",
+      arguments.folder,
+      summary.scans,
+      summary.points,
+      summary.imu_samples,
+      summary.duration,
+      summary.path_length);
+}
+
+void run(SimulateArguments& arguments) {
+  config::Schema schema;
+  sim::bind(schema, arguments.options);
+  if (!arguments.options_file.empty()) {
+    schema.read_file(arguments.options_file);
+  }
+  for (const std::string& assignment : arguments.overrides) {
+    schema.set(assignment);
+  }
+  if (arguments.lists_scenes) {
+    list_scenes();
+  } else if (arguments.lists_sensors) {
+    list_sensors();
+  } else if (arguments.prints_options) {
+    fmt::print("{}", schema.to_yaml());
+  } else {
+    simulate(arguments);
+  }
+}
+
+}  // namespace
+
+void add_simulate_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("simulate", "Simulate a LiDAR and an IMU in a scene");
+  const auto arguments = std::make_shared<SimulateArguments>();
+  command->add_option("SCENE", arguments->scene, "Name of a shipped scene, or a scene file");
+  command->add_option("--out", arguments->folder, "Folder of the sequence; must not exist");
+  command->add_option("--sensor", arguments->options.sensor, "LiDAR, see --list-sensors")
+      ->capture_default_str();
+  command->add_option("--seed", arguments->options.seed, "Of all noise and of the walk's details")
+      ->capture_default_str();
+  command->add_option("--duration", arguments->options.duration, "[s]; 0: to the end of the route")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command->add_option("--config", arguments->options_file, "YAML file of options")
+      ->check(CLI::ExistingFile);
+  command->add_option("--set", arguments->overrides, "An option, as in lidar.range_noise=0.02")
+      ->type_name("KEY=VALUE");
+  command->add_flag("--list-scenes", arguments->lists_scenes, "Print the shipped scenes");
+  command->add_flag("--list-sensors", arguments->lists_sensors, "Print the sensors");
+  command->add_flag("--print-options", arguments->prints_options, "Print all options as YAML");
+  command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace nvm::app

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "sim/imu.hpp"
+#include "sim/lidar.hpp"
+#include "sim/motion_options.hpp"
+#include "sim/scene.hpp"
+
+namespace nvm::config {
+class Schema;
+}
+
+namespace nvm::sim {
+
+/// What to simulate in a scene.
+struct SimulationOptions {
+  std::string sensor = "mid360";
+  std::uint64_t seed = 1;  ///< of all noise, and of the details of the walk
+  double duration = 0.0;   ///< [s]; 0: to the end of the route
+  MotionOptions motion;
+  LidarOptions lidar;
+  ImuOptions imu;
+};
+
+/// Binds the keys "motion.*", "lidar.*" and "imu.*" to `options`.
+void bind(config::Schema& schema, SimulationOptions& options);
+
+/// What a simulation has written.
+struct SimulationSummary {
+  std::size_t scans = 0;
+  std::size_t points = 0;
+  std::size_t imu_samples = 0;
+  double duration = 0.0;     ///< [s]
+  double path_length = 0.0;  ///< [m]
+};
+
+/// Simulates `scene` and writes a sequence folder, with its true trajectory and its scene. The same
+/// scene, options and seed give the same bytes, for any number of threads.
+///
+/// Throws std::invalid_argument for an unknown sensor, and std::runtime_error when the route is
+/// blocked, `folder` exists or cannot be written; nothing is left of the folder then.
+SimulationSummary simulate(
+    const Scene& scene, const SimulationOptions& options, const std::string& folder);
+
+}  // namespace nvm::sim

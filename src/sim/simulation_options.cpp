@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include "config/schema.hpp"
+#include "sim/simulation.hpp"
+
+namespace nvm::sim {
+namespace {
+
+using config::Schema;
+
+void bind_motion(Schema& schema, MotionOptions& motion) {
+  schema.add("speed", motion.speed, {0.0, 1.1}, "Mean walking speed [m/s]; 0: the scene's");
+  schema.add("still_time", motion.still_time, {2.5, 60.0}, "Stillness at the start [s]");
+  schema.add("height", motion.height, {0.1, 3.0}, "Of the IMU above the floor [m]");
+  schema.add("tilt_deg", motion.tilt_deg, {0.0, 45.0}, "Mean tilt, in a direction by the seed");
+  schema.add("gait", motion.gait, {0.0, 2.0}, "Scale of the sway and bob of walking");
+  schema.add("wander", motion.wander, {0.0, 2.0}, "Scale of the slow turns of the hand");
+  schema.add(
+      "waypoint_jitter",
+      motion.waypoint_jitter,
+      {0.0, 0.5},
+      "Each waypoint is moved by up to this, by the seed [m]");
+  schema.add(
+      "clearance",
+      motion.clearance,
+      {0.0, 10.0},
+      "From the sensor to any surface, else the simulation is refused [m]");
+}
+
+void bind_lidar(Schema& schema, LidarOptions& lidar) {
+  constexpr config::Range kProbability{0.0, 1.0};
+  constexpr config::Range kLength{0.0, 1000.0};
+  schema.add("scan_rate", lidar.scan_rate, {1.0, 100.0}, "[Hz]");
+  schema.add("range_noise", lidar.range_noise, kLength, "Standard deviation [m]");
+  schema.add(
+      "range_noise_per_metre", lidar.range_noise_per_metre, {0.0, 1.0}, "More of it at long range");
+  schema.add(
+      "range_noise_per_tangent",
+      lidar.range_noise_per_tangent,
+      kLength,
+      "More of it at slanting incidence: times tan(angle) [m]");
+  schema.add(
+      "mixed_pixels",
+      lidar.mixed_pixels,
+      kProbability,
+      "Probability that a beam which straddles an edge returns a range in between");
+  schema.add(
+      "outliers", lidar.outliers, kProbability, "Probability of any range up to the true one");
+  schema.add("dropouts", lidar.dropouts, kProbability, "Probability that nothing returns");
+  schema.add("min_range", lidar.min_range, kLength, "[m]; 0: the sensor's");
+  schema.add("max_range", lidar.max_range, kLength, "[m]; 0: the sensor's");
+}
+
+void bind_triad(Schema& schema, TriadNoise& triad, const std::string& unit) {
+  constexpr config::Range kSize{0.0, 100.0};
+  schema.add("noise_density", triad.noise_density, kSize, "White noise [" + unit + "/sqrt(Hz)]");
+  schema.add("bias_walk", triad.bias_walk, kSize, "Walk of the bias [" + unit + "/s/sqrt(Hz)]");
+  schema.add(
+      "initial_bias",
+      triad.initial_bias,
+      kSize,
+      "Standard deviation of the bias at the start [" + unit + "]");
+  schema.add(
+      "scale_error", triad.scale_error, {0.0, 0.2}, "Standard deviation of the scale per axis");
+  schema.add(
+      "misalignment_deg",
+      triad.misalignment_deg,
+      {0.0, 20.0},
+      "Standard deviation of the turn about each axis");
+}
+
+}  // namespace
+
+void bind(Schema& schema, SimulationOptions& options) {
+  bind_motion(schema.section("motion", "How the sensor is carried"), options.motion);
+  bind_lidar(schema.section("lidar", "How the LiDAR errs"), options.lidar);
+  Schema& imu = schema.section("imu", "How the IMU errs");
+  imu.add("rate", options.imu.rate, {10.0, 10000.0}, "[Hz]");
+  imu.add("gravity", options.imu.gravity, {0.0, 100.0}, "[m/s^2]");
+  bind_triad(imu.section("gyro", "Gyroscopes"), options.imu.gyro, "rad/s");
+  bind_triad(imu.section("accelerometer", "Accelerometers"), options.imu.accelerometer, "m/s^2");
+}
+
+}  // namespace nvm::sim
