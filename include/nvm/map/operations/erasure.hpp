@@ -55,9 +55,7 @@ std::uint32_t erase_from_surface(
   std::size_t count = 0;
   for_each_id(storage, head, [&](PointId id) {
     if (!region.contains(stored_position(storage, lattice, id))) {
-      kept[count++] = {
-          storage.chunk(id / kLanes).wrapped(static_cast<int>(id % kLanes)),
-          stored_normal(storage, id)};
+      kept[count++] = {stored_point(storage, id), stored_normal(storage, id)};
     }
   });
   if (count == storage.chunk(head).size) {

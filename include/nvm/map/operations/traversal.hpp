@@ -27,8 +27,12 @@ void for_each_id(const VoxelStorage& storage, std::uint32_t head, Visitor&& visi
   }
 }
 
+inline WrappedPoint stored_point(const VoxelStorage& storage, PointId id) {
+  return storage.chunk(id / kLanes).wrapped(static_cast<int>(id % kLanes));
+}
+
 inline Eigen::Vector3i stored_step(const VoxelStorage& storage, PointId id) {
-  const WrappedPoint point = storage.chunk(id / kLanes).wrapped(static_cast<int>(id % kLanes));
+  const WrappedPoint point = stored_point(storage, id);
   return {step_in_voxel(point.x), step_in_voxel(point.y), step_in_voxel(point.z)};
 }
 

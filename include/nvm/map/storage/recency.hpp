@@ -6,7 +6,6 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <tuple>
 #include <vector>
 
 #include "nvm/core/assert.hpp"
@@ -88,27 +87,49 @@ class Recency {
     }
   }
 
-  /// All voxels, the least recently used first: the order in which they would be evicted.
-  std::vector<std::uint32_t> oldest_first() const {
-    struct Entry {
-      std::uint32_t id;
-      std::uint32_t stamp;
-      bool would_move;  // moved voxels join behind those that stand in the list of their stamp
-    };
-    std::vector<Entry> entries;
-    entries.reserve(count_);
+  /// Where a voxel stands, with the epochs counted without gaps from 1.
+  struct Standing {
+    std::uint32_t id;
+    std::uint32_t listed;
+    std::uint32_t stamp;
+  };
+
+  /// All voxels, from the oldest list to the newest, each list in order.
+  std::vector<Standing> standings() const {
+    std::vector<Standing> standings;
+    std::vector<std::uint32_t> epochs;
+    standings.reserve(count_);
     for (std::uint32_t epoch = oldest_; count_ > 0 && epoch <= epoch_; ++epoch) {
       for (std::uint32_t id = list(epoch).first(); id != kNone; id = nodes_[id].next) {
-        entries.push_back({id, stamp(id), stamp(id) != epoch});
+        standings.push_back({id, epoch, stamp(id)});
+        epochs.insert(epochs.end(), {epoch, stamp(id)});
       }
     }
-    std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
-      return std::tie(a.stamp, a.would_move) < std::tie(b.stamp, b.would_move);
-    });
-    std::vector<std::uint32_t> ids(entries.size());
-    std::transform(
-        entries.begin(), entries.end(), ids.begin(), [](const Entry& entry) { return entry.id; });
-    return ids;
+    std::sort(epochs.begin(), epochs.end());
+    epochs.erase(std::unique(epochs.begin(), epochs.end()), epochs.end());
+    const auto rank = [&](std::uint32_t epoch) {
+      const auto place = std::lower_bound(epochs.begin(), epochs.end(), epoch) - epochs.begin();
+      return kFirstEpoch + static_cast<std::uint32_t>(place);
+    };
+    for (Standing& standing : standings) {
+      standing.listed = rank(standing.listed);
+      standing.stamp = rank(standing.stamp);
+    }
+    return standings;
+  }
+
+  /// Adds a voxel as standings() gave it, in the same order, to an empty order or one that only
+  /// this has filled. False, and nothing is added, when it cannot have come from there.
+  bool restore(const Standing& standing) noexcept {
+    const bool possible = standing.listed >= kFirstEpoch && standing.listed <= standing.stamp &&
+                          standing.stamp < ring_mask_;
+    if (possible) {
+      new (&nodes_[standing.id]) Node{standing.stamp, standing.listed, kNone, kNone};
+      append(standing.id);
+      epoch_ = std::max(epoch_, standing.stamp);
+      ++count_;
+    }
+    return possible;
   }
 
   /// The epoch of the last use, for comparing two voxels.
@@ -146,7 +167,8 @@ class Recency {
 
   static std::size_t ring_size(std::size_t capacity) {
     std::size_t size = 1024;
-    while (size < 2 * capacity) {
+    while (size <
+           2 * capacity + 2) {  // each voxel may have its list's and its stamp's epoch to itself
       size *= 2;
     }
     return size;

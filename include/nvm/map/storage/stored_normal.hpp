@@ -16,6 +16,10 @@ struct StoredNormal {
   std::int8_t z = 0;
 };
 
+inline bool operator==(const StoredNormal& a, const StoredNormal& b) {
+  return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
 inline constexpr int kNormalScale = 127;
 
 /// True for a finite vector whose length is 1 within 1 %.

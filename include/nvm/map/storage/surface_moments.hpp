@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 
 #include "nvm/map/storage/stored_normal.hpp"
 
@@ -29,31 +28,55 @@ struct SurfaceMoments {
   }
 };
 
+/// A symmetric 3 x 3 matrix and a vector of integers, for directions only: their scale does not
+/// matter.
+struct WideMatrix {
+  std::int64_t xx, xy, xz, yy, yz, zz;
+};
 struct WideVector {
   std::int64_t x, y, z;
 };
 
-/// `v` scaled down by a power of two to components below 2^15.
-inline WideVector narrowed(const WideVector& v) {
-  const auto magnitude =
-      static_cast<std::uint64_t>(std::llabs(v.x) | std::llabs(v.y) | std::llabs(v.z));
-  const int bits = magnitude == 0 ? 0 : 64 - __builtin_clzll(magnitude);
-  const int shift = bits > 15 ? bits - 15 : 0;
-  return {v.x >> shift, v.y >> shift, v.z >> shift};
-}
-
-inline WideVector times(const SurfaceMoments& m, const WideVector& v) {
+inline WideVector operator*(const WideMatrix& m, const WideVector& v) {
   return {
       m.xx * v.x + m.xy * v.y + m.xz * v.z,
       m.xy * v.x + m.yy * v.y + m.yz * v.z,
       m.xz * v.x + m.yz * v.y + m.zz * v.z};
 }
 
+inline std::int64_t dot(const WideVector& a, const WideVector& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+/// The square of a positive semidefinite matrix, scaled by a power of two so that its entries stay
+/// below 2^15.
+inline WideMatrix scaled_square(const WideMatrix& m) {
+  const WideMatrix square{
+      m.xx * m.xx + m.xy * m.xy + m.xz * m.xz,
+      m.xx * m.xy + m.xy * m.yy + m.xz * m.yz,
+      m.xx * m.xz + m.xy * m.yz + m.xz * m.zz,
+      m.xy * m.xy + m.yy * m.yy + m.yz * m.yz,
+      m.xy * m.xz + m.yy * m.yz + m.yz * m.zz,
+      m.xz * m.xz + m.yz * m.yz + m.zz * m.zz};
+  // No entry is larger than the trace.
+  const auto trace = static_cast<std::uint64_t>(square.xx + square.yy + square.zz);
+  const int bits = 64 - __builtin_clzll(trace | 1U);
+  const int shift = bits > 15 ? bits - 15 : 0;
+  return {
+      square.xx >> shift,
+      square.xy >> shift,
+      square.xz >> shift,
+      square.yy >> shift,
+      square.yz >> shift,
+      square.zz >> shift};
+}
+
 inline StoredNormal store_direction(const WideVector& v) {
-  const double length = std::sqrt(static_cast<double>(v.x * v.x + v.y * v.y + v.z * v.z));
-  if (length == 0.0) {
+  const double sq_length = static_cast<double>(dot(v, v));
+  if (sq_length == 0.0) {
     return {};
   }
+  const double length = std::sqrt(sq_length);
   const auto component = [length](std::int64_t value) {
     return static_cast<std::int8_t>(
         std::nearbyint(static_cast<double>(value * kNormalScale) / length));
@@ -61,20 +84,39 @@ inline StoredNormal store_direction(const WideVector& v) {
   return {component(v.x), component(v.y), component(v.z)};
 }
 
-/// The principal direction of a surface (spec §3.3): the dominant eigenvector of sum n n^T with the
-/// sign of sum n; zero without normals.
-///
-/// Power iteration from sum n, which already lies near that eigenvector. Four steps leave
-/// (lambda2/lambda1)^4 of the distance, within the resolution of StoredNormal for any surface whose
-/// normals scatter by less than 45 degrees. In integers, because a fused multiply-add here would
-/// make maps differ between processors.
-inline StoredNormal principal_direction(const SurfaceMoments& m) {
-  constexpr int kSteps = 4;
-  WideVector v{m.x, m.y, m.z};
-  for (int step = 0; step < kSteps; ++step) {
-    v = narrowed(times(m, v));
+inline WideVector widened(const StoredNormal& n) { return {n.x, n.y, n.z}; }
+
+/// The eigenvector of the largest eigenvalue of `m`, of either sign: a column of m^32, whose error
+/// is the 32nd power of the ratio of the two largest eigenvalues.
+inline WideVector dominant_eigenvector(WideMatrix m) {
+  for (int squaring = 0; squaring < 5; ++squaring) {
+    m = scaled_square(m);
   }
-  return store_direction(v);
+  if (m.xx >= m.yy && m.xx >= m.zz) {
+    return {m.xx, m.xy, m.xz};
+  }
+  return m.yy >= m.zz ? WideVector{m.xy, m.yy, m.yz} : WideVector{m.xz, m.yz, m.zz};
+}
+
+/// The principal direction of a surface (spec §3.3): the dominant eigenvector of sum n n^T with the
+/// sign of sum n; zero without normals. In integers, because a fused multiply-add here would make
+/// maps differ between processors.
+inline StoredNormal principal_direction(const SurfaceMoments& moments) {
+  const WideMatrix m{moments.xx, moments.xy, moments.xz, moments.yy, moments.yz, moments.zz};
+  const WideVector sum{moments.x, moments.y, moments.z};
+  // Where the normals agree, as on any wall, one step of the power iteration from their sum is all
+  // it takes. The result is the dominant eigenvector if another step does not move it and its
+  // eigenvalue is more than half of the trace.
+  const StoredNormal guess = store_direction(m * sum);
+  const WideVector direction = widened(guess);
+  const WideVector image = m * direction;
+  if (store_direction(image) == guess &&
+      2 * dot(direction, image) > (m.xx + m.yy + m.zz) * dot(direction, direction)) {
+    return guess;
+  }
+  const WideVector eigenvector = dominant_eigenvector(m);
+  const std::int64_t sign = dot(eigenvector, sum) < 0 ? -1 : 1;
+  return store_direction({sign * eigenvector.x, sign * eigenvector.y, sign * eigenvector.z});
 }
 
 }  // namespace nvm::detail

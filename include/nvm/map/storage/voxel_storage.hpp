@@ -153,15 +153,16 @@ class VoxelStorage {
   /// must be no such voxel, and room for a voxel, a chunk and, unless its brick exists, a brick.
   /// Throws std::bad_alloc, changing nothing.
   std::uint32_t create_voxel(const VoxelIndex& index) {
-    const std::uint32_t brick = find_or_create_brick(brick_index(index));
-    const std::uint32_t voxel = voxel_ids_.take(voxel_link());
-    const std::uint32_t head = create_surface(voxel);
-    const auto cell = static_cast<std::uint32_t>(cell_in_brick(index));
-    places_[voxel] = brick * kBrickCells + cell;
-    bricks_[brick].head[cell] = head;
-    bricks_[brick].occupied |= std::uint64_t{1} << cell;
-    recency_.add(voxel);
+    const std::uint32_t head = place_voxel(index);
+    recency_.add(chunks_[head].voxel);
     return head;
+  }
+
+  /// The same for a voxel read from a file, with the standing that it had. kNone when that is
+  /// impossible.
+  std::uint32_t restore_voxel(const VoxelIndex& index, std::uint32_t listed, std::uint32_t stamp) {
+    const std::uint32_t head = place_voxel(index);
+    return recency_.restore({chunks_[head].voxel, listed, stamp}) ? head : kNone;
   }
 
   /// An empty surface of `voxel`, not linked to the others yet. There must be room for a chunk.
@@ -254,6 +255,17 @@ class VoxelStorage {
   }
 
  private:
+  std::uint32_t place_voxel(const VoxelIndex& index) {
+    const std::uint32_t brick = find_or_create_brick(brick_index(index));
+    const std::uint32_t voxel = voxel_ids_.take(voxel_link());
+    const std::uint32_t head = create_surface(voxel);
+    const auto cell = static_cast<std::uint32_t>(cell_in_brick(index));
+    places_[voxel] = brick * kBrickCells + cell;
+    bricks_[brick].head[cell] = head;
+    bricks_[brick].occupied |= std::uint64_t{1} << cell;
+    return head;
+  }
+
   std::uint32_t take_chunk(std::uint32_t voxel) noexcept {
     const std::uint32_t id = chunk_ids_.take(chunk_link());
     NVM_ASSERT(id != kNone);
