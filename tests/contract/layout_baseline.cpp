@@ -2,4 +2,4 @@
 // Copyright (c) 2026 The nvm authors
 #include "contract/layout.hpp"
 
-const nvm::test::Layout nvm::test::kBaselineLayouts[] = NVM_TEST_PUBLIC_LAYOUTS;
+const nvm::test::Layouts nvm::test::kBaselineLayouts = NVM_TEST_PUBLIC_LAYOUTS;

@@ -1,0 +1,33 @@
+# The verbs of a newcomer; everything behind them is a script or a CMake preset.
+.PHONY: help setup demo test bench docs format lint coverage
+
+help:  ## this list
+	@sed -n 's/^\([a-z]*\):  ## /  make \1\t/p' Makefile
+
+setup:  ## install every dependency (Debian 12)
+	scripts/setup.sh
+
+demo:  ## map a thin wall with and without nvm, as a picture
+	scripts/demo.sh
+
+test:  ## build everything and run every test
+	scripts/test.sh
+
+bench:  ## build for this machine and measure
+	scripts/bench.sh
+
+docs:  ## API pages in build/docs/html
+	scripts/setup.sh --developer
+	mkdir -p build/docs && doxygen docs/Doxyfile
+
+format:  ## format every C++ file
+	scripts/format.sh
+
+lint:  ## build with clang, clang-tidy on every file
+	scripts/setup.sh --developer
+	cmake --workflow --preset tidy
+
+coverage:  ## which lines the tests reach
+	scripts/setup.sh --developer
+	cmake --workflow --preset coverage
+	gcovr --root . --filter include --filter src build/coverage

@@ -1,0 +1,70 @@
+#!/usr/bin/env bash
+# Installs what nvm needs on Debian 12 (Ubuntu alike); takes no time when everything is there.
+#   scripts/setup.sh [--developer] [--pcl]
+#     --developer  also what formats, lints, documents and measures coverage
+#     --pcl        also PCL, for the adapter and its comparison (large)
+set -euo pipefail
+source "$(dirname "$0")/environment.sh"
+
+packages=(
+  # to build
+  g++ make cmake ninja-build pkg-config ccache git ca-certificates
+  # the core
+  libeigen3-dev libnanoflann-dev
+  # the compiled components and the nvm program
+  libassimp-dev libceres-dev libcli11-dev libembree-dev libfmt-dev libspdlog-dev libtbb-dev
+  libyaml-cpp-dev nlohmann-json3-dev librosbag-storage-dev libsensor-msgs-dev
+  # tests and benchmarks
+  libbenchmark-dev libgmock-dev libgtest-dev
+  # plots, converters, the comparison with evo
+  python3 python3-venv
+)
+for option in "$@"; do
+  case $option in
+    --developer) packages+=(clang clang-format clang-tidy doxygen gcovr dpkg-dev) ;;
+    --pcl) packages+=(libpcl-dev) ;;
+    *) sed -n '2,5s/^# //p' "$0" && exit 2 ;;
+  esac
+done
+
+say() { echo "setup: $*"; }
+
+install_debian_packages() {
+  if ! command -v apt-get >/dev/null; then
+    say "not a Debian: the equivalents of these are up to you: ${packages[*]}"
+    return
+  fi
+  local missing=() package
+  for package in "${packages[@]}"; do
+    dpkg-query --show --showformat='${db:Status-Status}' "$package" 2>/dev/null |
+      grep -qx installed || missing+=("$package")
+  done
+  ((${#missing[@]})) || return 0
+  local as_root=()
+  if ((EUID != 0)); then
+    as_root=(sudo)
+    command -v sudo >/dev/null || {
+      say "run as root: apt-get install ${missing[*]}"
+      exit 1
+    }
+  fi
+  say "installing ${missing[*]}"
+  "${as_root[@]}" apt-get update -q
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -q -y --no-install-recommends "${missing[@]}"
+}
+
+has_python_packages() {
+  python3 -c 'import evo, matplotlib, numpy, rosbags' 2>/dev/null
+}
+
+install_python_packages() {
+  has_python_packages && return
+  say "installing $(tr '\n' ' ' <scripts/requirements.txt)into .venv"
+  python3 -m venv .venv
+  .venv/bin/pip install --quiet --requirement scripts/requirements.txt
+}
+
+install_debian_packages
+install_python_packages
+say "everything is there"
