@@ -46,11 +46,12 @@ void print_summary(const eval::RunEvaluation& run) {
     fmt::print(" ATE RMSE {:.2f} mm,", kMillimetres * run.trajectory->absolute.rmse);
   }
   const eval::WallSummary walls = eval::summarize(run.map.walls);
+  if (walls.seen > 0) {
+    fmt::print(" {} of {} walls,", walls.measured, walls.seen);
+  }
   if (walls.absolute_error) {
     fmt::print(
-        " {} of {} walls, thickness off by {:.2f} mm (worst {:.2f}),",
-        walls.measured,
-        walls.seen,
+        " thickness off by {:.2f} mm (worst {:.2f}),",
         kMillimetres * walls.absolute_error->mean,
         kMillimetres * walls.absolute_error->max);
   }

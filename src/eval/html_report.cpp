@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "eval/chart.hpp"
+#include "eval/trajectory_charts.hpp"
 
 namespace nvm::eval {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "eval/evaluation.hpp"
-#include "eval/report_charts.hpp"
+#include "eval/wall_pictures.hpp"
 
 namespace nvm::eval {
 

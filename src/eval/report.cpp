@@ -9,7 +9,7 @@
 
 #include "eval/html_report.hpp"
 #include "eval/json_report.hpp"
-#include "eval/report_charts.hpp"
+#include "eval/wall_pictures.hpp"
 #include "io/file.hpp"
 
 namespace nvm::eval {
