@@ -7,6 +7,12 @@
 #include <cstdint>
 #include <cstring>
 
+#if defined(__FMA__)
+#include <immintrin.h>
+#elif defined(__ARM_FEATURE_FMA) && defined(__ARM_NEON)
+#include <arm_neon.h>
+#endif
+
 // Arithmetic on several floats at once with the vector types of GCC and Clang: SSE2, AVX or NEON
 // code from one source. Code that is a template over its number type runs on float, on double and
 // on FloatLanes; on float and FloatLanes it gives the same bits.
@@ -42,6 +48,39 @@ inline double constant<double>(double value) {
   return value;
 }
 
+/// a b + c: rounded once where the target has such an instruction, else twice.
+template <class Real>
+Real multiply_add(const Real& a, const Real& b, const Real& c) {
+  return a * b + c;
+}
+#if defined(__FMA__)
+template <>
+inline float multiply_add(const float& a, const float& b, const float& c) {
+  return std::fma(a, b, c);
+}
+template <>
+inline double multiply_add(const double& a, const double& b, const double& c) {
+  return std::fma(a, b, c);
+}
+template <>
+inline FloatLanes multiply_add(const FloatLanes& a, const FloatLanes& b, const FloatLanes& c) {
+  return _mm256_fmadd_ps(a, b, c);
+}
+#elif defined(__ARM_FEATURE_FMA) && defined(__ARM_NEON)
+template <>
+inline float multiply_add(const float& a, const float& b, const float& c) {
+  return std::fma(a, b, c);
+}
+template <>
+inline double multiply_add(const double& a, const double& b, const double& c) {
+  return std::fma(a, b, c);
+}
+template <>
+inline FloatLanes multiply_add(const FloatLanes& a, const FloatLanes& b, const FloatLanes& c) {
+  return vfmaq_f32(c, a, b);
+}
+#endif
+
 template <class Real>
 Real absolute(const Real& value) {
   return value < Real{} ? -value : value;
@@ -71,7 +110,7 @@ Real newton_inverse_sqrt(const Real& value) {
   std::memcpy(&y, &bits, sizeof(y));
   const Real half = 0.5F * value;
   for (int step = 0; step < 3; ++step) {
-    y = y * (1.5F - half * y * y);
+    y = y * multiply_add<Real>(-half * y, y, constant<Real>(1.5));
   }
   return y;
 }

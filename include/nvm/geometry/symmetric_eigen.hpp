@@ -28,19 +28,31 @@ namespace detail {
 
 template <class Real>
 Real dot(const Vector3Of<Real>& a, const Vector3Of<Real>& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
+  return multiply_add<Real>(a.z, b.z, multiply_add<Real>(a.y, b.y, a.x * b.x));
+}
+
+/// a b + c d.
+template <class Real>
+Real sum_of_products(const Real& a, const Real& b, const Real& c, const Real& d) {
+  return multiply_add<Real>(a, b, c * d);
 }
 
 template <class Real>
 Vector3Of<Real> cross(const Vector3Of<Real>& a, const Vector3Of<Real>& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  return {
+      sum_of_products<Real>(a.y, b.z, -a.z, b.y),
+      sum_of_products<Real>(a.z, b.x, -a.x, b.z),
+      sum_of_products<Real>(a.x, b.y, -a.y, b.x)};
 }
 
-/// a * u + b * v.
+/// a u + b v.
 template <class Real>
 Vector3Of<Real> combine(
     const Real& a, const Vector3Of<Real>& u, const Real& b, const Vector3Of<Real>& v) {
-  return {a * u.x + b * v.x, a * u.y + b * v.y, a * u.z + b * v.z};
+  return {
+      sum_of_products(a, u.x, b, v.x),
+      sum_of_products(a, u.y, b, v.y),
+      sum_of_products(a, u.z, b, v.z)};
 }
 
 template <class Real, class Mask>
@@ -49,11 +61,35 @@ Vector3Of<Real> select(const Mask& mask, const Vector3Of<Real>& a, const Vector3
 }
 
 template <class Real>
+struct Rows {
+  Vector3Of<Real> x, y, z;
+};
+
+template <class Real>
+Rows<Real> rows(const Symmetric3<Real>& m) {
+  return {{m.xx, m.xy, m.xz}, {m.xy, m.yy, m.yz}, {m.xz, m.yz, m.zz}};
+}
+
+template <class Real>
 Vector3Of<Real> times(const Symmetric3<Real>& m, const Vector3Of<Real>& v) {
-  return {
-      m.xx * v.x + m.xy * v.y + m.xz * v.z,
-      m.xy * v.x + m.yy * v.y + m.yz * v.z,
-      m.xz * v.x + m.yz * v.y + m.zz * v.z};
+  const Rows<Real> row = rows(m);
+  return {dot(row.x, v), dot(row.y, v), dot(row.z, v)};
+}
+
+template <class Real>
+Real determinant(const Symmetric3<Real>& m) {
+  const Rows<Real> row = rows(m);
+  return dot(row.x, cross(row.y, row.z));
+}
+
+template <class Real>
+Symmetric3<Real> scaled(const Symmetric3<Real>& m, const Real& s) {
+  return {m.xx * s, m.xy * s, m.xz * s, m.yy * s, m.yz * s, m.zz * s};
+}
+
+template <class Real>
+Symmetric3<Real> shifted(const Symmetric3<Real>& m, const Real& diagonal) {
+  return {m.xx - diagonal, m.xy, m.xz, m.yy - diagonal, m.yz, m.zz - diagonal};
 }
 
 template <class Real>
@@ -71,37 +107,38 @@ struct Deviator {
 };
 
 template <class Real>
-Deviator<Real> deviator(const Symmetric3<Real>& m) {
-  const Real zero{};
-  const Real size = max_abs(m);
-  const Real scale = size > zero ? size : constant<Real>(1.0);
-  const Real unscale = 1.0F / scale;
-  const Real mean = (m.xx + m.yy + m.zz) * unscale * constant<Real>(1.0 / 3.0);
-  const Real xx = m.xx * unscale - mean, xy = m.xy * unscale, xz = m.xz * unscale;
-  const Real yy = m.yy * unscale - mean, yz = m.yz * unscale, zz = m.zz * unscale - mean;
-  const Real sq_spread = (xx * xx + yy * yy + zz * zz + 2.0F * (xy * xy + xz * xz + yz * yz)) *
-                         constant<Real>(1.0 / 6.0);
-  const Real unspread = inverse_sqrt(sq_spread);
-  return {
-      {xx * unspread, xy * unspread, xz * unspread, yy * unspread, yz * unspread, zz * unspread},
-      mean * scale,
-      sq_spread * unspread * scale};
+Real third_of_trace(const Symmetric3<Real>& m) {
+  return (m.xx + m.yy + m.zz) / constant<Real>(3.0);
 }
 
 template <class Real>
-Real determinant(const Symmetric3<Real>& m) {
-  return m.xx * (m.yy * m.zz - m.yz * m.yz) - m.xy * (m.xy * m.zz - m.yz * m.xz) +
-         m.xz * (m.xy * m.yz - m.yy * m.xz);
+Deviator<Real> deviator(const Symmetric3<Real>& m) {
+  // In two steps, because close to a multiple of I the rounding of the mean is all that is left.
+  const Real mean = third_of_trace(m);
+  const Symmetric3<Real> almost = shifted(m, mean);
+  const Real correction = third_of_trace(almost);
+  const Symmetric3<Real> exact = shifted(almost, correction);
+
+  const Real size = max_abs(exact);
+  const Real scale = size > Real{} ? size : constant<Real>(1.0);
+  const Symmetric3<Real> b = scaled<Real>(exact, 1.0F / scale);
+  const Vector3Of<Real> diagonal{b.xx, b.yy, b.zz}, rest{b.xy, b.xz, b.yz};
+  const Real half_sq_norm =
+      multiply_add<Real>(constant<Real>(0.5), dot(diagonal, diagonal), dot(rest, rest));
+  const Real sq_spread = half_sq_norm / constant<Real>(3.0);
+  const Real unspread = inverse_sqrt(sq_spread);
+  return {scaled(b, unspread), mean + correction, sq_spread * unspread * scale};
 }
 
 /// The largest root of x^3 - 3x - 2r for r in [0, 1]: 2 cos(acos(r)/3), by Newton's method. The
 /// start, a fitted parabola, is off by at most 1.1e-3; each step more than squares that.
 template <class Real>
 Real isolated_root(const Real& r) {
-  Real x = 1.7331223F + r * (0.3191803F - 0.0531376F * r);
+  const Real slope = multiply_add<Real>(constant<Real>(-0.0531376), r, constant<Real>(0.3191803));
+  Real x = multiply_add<Real>(slope, r, constant<Real>(1.7331223));
   for (int step = 0; step < 3; ++step) {
     const Real sq_x = x * x;
-    x = (2.0F * x * sq_x + 2.0F * r) / (3.0F * sq_x - 3.0F);
+    x = multiply_add<Real>(x, sq_x, r) / (1.5F * (sq_x - 1.0F));
   }
   return x;
 }
@@ -110,8 +147,8 @@ Real isolated_root(const Real& r) {
 /// is orthogonal to, and of the three pairs of rows the one with the largest product is used.
 template <class Real>
 Vector3Of<Real> null_vector(const Symmetric3<Real>& m) {
-  const Vector3Of<Real> row_x{m.xx, m.xy, m.xz}, row_y{m.xy, m.yy, m.yz}, row_z{m.xz, m.yz, m.zz};
-  const Vector3Of<Real> a = cross(row_x, row_y), b = cross(row_x, row_z), c = cross(row_y, row_z);
+  const Rows<Real> row = rows(m);
+  const Vector3Of<Real> a = cross(row.x, row.y), b = cross(row.x, row.z), c = cross(row.y, row.z);
   const Real sq_a = dot(a, a), sq_b = dot(b, b), sq_c = dot(c, c);
   const auto use_b = sq_b > sq_a;
   const Vector3Of<Real> ab = select(use_b, b, a);
@@ -136,19 +173,19 @@ EigenPair<Real> eigen_pair_across(const Symmetric3<Real>& m, const Vector3Of<Rea
   const Real sign = v.z < zero ? -one : one;
   const Real a = -1.0F / (sign + v.z);
   const Real b = v.x * v.y * a;
-  const Vector3Of<Real> u{one + sign * v.x * v.x * a, sign * b, -sign * v.x};
-  const Vector3Of<Real> w{b, sign + v.y * v.y * a, -v.y};
+  const Vector3Of<Real> u{multiply_add<Real>(sign * v.x * v.x, a, one), sign * b, -sign * v.x};
+  const Vector3Of<Real> w{b, multiply_add<Real>(v.y * v.y, a, sign), -v.y};
   const Vector3Of<Real> mw = times(m, w);
   const Real uu = dot(u, times(m, u)), uw = dot(u, mw), ww = dot(w, mw);
 
   const Real half_difference = 0.5F * (uu - ww), half_sum = 0.5F * (uu + ww);
-  const Real sq_radius = half_difference * half_difference + uw * uw;
+  const Real sq_radius = sum_of_products(half_difference, half_difference, uw, uw);
   const Real radius = sq_radius * inverse_sqrt(sq_radius);
   // (cosine, sine) of the larger eigenvector in (u, w), from whichever row does not cancel.
   const auto u_leads = half_difference >= zero;
   const Real along_u = u_leads ? half_difference + radius : uw;
   const Real along_w = u_leads ? uw : radius - half_difference;
-  const Real sq_length = along_u * along_u + along_w * along_w;
+  const Real sq_length = sum_of_products(along_u, along_u, along_w, along_w);
   const auto is_split = sq_length > constant<Real>(1e-30);
   const Real unit = inverse_sqrt(sq_length);
   const Real cosine = is_split ? along_u * unit : one;
@@ -181,14 +218,15 @@ Eigen3<Real> eigen_decomposition(const Symmetric3<Real>& m) {
   const Real root = isolated_root(smaller(absolute(half_determinant), one));
   const Real isolated = is_smallest ? -root : root;
 
-  const Symmetric3<Real>& b = d.unit;
-  const Vector3Of<Real> v = null_vector(
-      Symmetric3<Real>{b.xx - isolated, b.xy, b.xz, b.yy - isolated, b.yz, b.zz - isolated});
-  const EigenPair<Real> pair = eigen_pair_across(b, v);
+  const Vector3Of<Real> v = null_vector(shifted(d.unit, isolated));
+  const EigenPair<Real> pair = eigen_pair_across(d.unit, v);
+  const auto eigenvalue = [&d](const Real& unit) {
+    return multiply_add<Real>(d.spread, unit, d.mean);
+  };
   return {
-      d.mean + d.spread * (is_smallest ? isolated : pair.smaller),
-      d.mean + d.spread * (is_smallest ? pair.smaller : pair.larger),
-      d.mean + d.spread * (is_smallest ? pair.larger : isolated),
+      eigenvalue(is_smallest ? isolated : pair.smaller),
+      eigenvalue(is_smallest ? pair.smaller : pair.larger),
+      eigenvalue(is_smallest ? pair.larger : isolated),
       select(is_smallest, v, pair.smaller_vector),
       select(is_smallest, pair.smaller_vector, pair.larger_vector),
       select(is_smallest, pair.larger_vector, v)};

@@ -15,7 +15,7 @@ enum class NormalMethod {
 /// Configuration of a NormalEstimator. Aggregate; the estimator's constructor validates it.
 struct NormalOptions {
   /// Points nearer to their viewpoint than this [m] are dropped, 0 to max_range; D_min.
-  double min_range = 0.5;
+  double min_range = 0.3;
   /// Points farther from their viewpoint than this [m] are dropped, up to 10 000; D_max.
   double max_range = 100.0;
   /// Radius of the neighbourhood of a point at min_range [m], 0.001 to max_radius; R_min.
@@ -23,15 +23,15 @@ struct NormalOptions {
   /// Radius of the neighbourhood of a point at max_range [m], min_radius to 1000; R_max. The radius
   /// grows linearly between the two (Eq. 1 as decided in spec §2.2) and is fixed when they are
   /// equal.
-  double max_radius = 1.0;
+  double max_radius = 4.0;
   /// Points that a neighbourhood needs, the point itself included, 3 to 1 000 000; Ng_thres.
   int min_neighbors = 6;
   /// Largest share of the first eigenvalue in the sum of the three, above 1/3 to 1; delta_thres of
   /// Eq. 2. Rejects neighbourhoods that are a line.
-  double max_linearity = 0.95;
+  double max_linearity = 0.9;
   /// Largest share of the third eigenvalue in the sum of the three, above 0 to 1/3: the surface
   /// variation. Rejects corners and clutter.
-  double max_surface_variation = 0.05;
+  double max_surface_variation = 0.03;
   NormalMethod method = NormalMethod::kBlockTree;
 
   /// Throws std::invalid_argument with the name, the value and the allowed range of the first bad

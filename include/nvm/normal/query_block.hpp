@@ -18,10 +18,11 @@ inline constexpr std::size_t kLaneGroups = kBlockSize / kLaneCount;
 /// Moments of the neighbours of each query of a block, relative to that query.
 using BlockMoments = std::array<Moments<FloatLanes>, kLaneGroups>;
 
-/// Squared distance [m^2]. Neighbours are the points with sq_distance <= sq_radius, inclusive.
+/// Squared length [m^2]: of the difference of two points, it is compared to the squared radius. A
+/// neighbour is a point with sq_length <= sq_radius, inclusive, whatever finds it.
 template <class Real>
 Real sq_length(const Real& x, const Real& y, const Real& z) {
-  return x * x + y * y + z * z;
+  return multiply_add<Real>(z, z, multiply_add<Real>(y, y, x * x));
 }
 
 /// Up to kBlockSize consecutive queries of a spatial order and the box around them.

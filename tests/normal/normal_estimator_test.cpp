@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include "nvm/normal/normal_estimator.hpp"
+
+#include <gmock/gmock.h>
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <random>
+#include <stdexcept>
+#include <vector>
+
+#include "nvm/core/executor_openmp.hpp"
+#include "nvm/core/executor_tbb.hpp"
+#include "support/furnished_room.hpp"
+#include "support/rng.hpp"
+
+namespace nvm {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+test::TrueScan room_scan(std::mt19937_64& rng, double noise = 0.01) {
+  return test::FurnishedRoom(7.0, rng).scan(test::spinning_directions(16, 500), noise, rng);
+}
+
+// A square of 1 m across the x axis at x = `range`, a point every 5 cm.
+std::vector<Vector3d> wall(double range) {
+  std::vector<Vector3d> points;
+  for (int y = -10; y <= 10; ++y) {
+    for (int z = -10; z <= 10; ++z) {
+      points.emplace_back(range, 0.05 * y, 0.05 * z);
+    }
+  }
+  return points;
+}
+
+NormalOptions fixed_radius(double radius) {
+  NormalOptions options;
+  options.min_radius = options.max_radius = radius;
+  return options;
+}
+
+void expect_same_bits(const NormalResult& a, const NormalResult& b) {
+  ASSERT_EQ(a.status, b.status);
+  ASSERT_EQ(a.normals.size(), b.normals.size());
+  EXPECT_EQ(
+      std::memcmp(a.normals.data(), b.normals.data(), a.normals.size() * sizeof(Vector3f)), 0);
+}
+
+class NormalEstimation : public ::testing::TestWithParam<NormalMethod> {
+ protected:
+  static NormalOptions options(NormalOptions base = {}) {
+    base.method = GetParam();
+    return base;
+  }
+  static NormalStatus status_of_first(
+      const std::vector<Vector3d>& points, const NormalOptions& base) {
+    return estimate_normals(points, Vector3d(0, 0, 0), options(base)).status[0];
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(
+    Methods,
+    NormalEstimation,
+    ::testing::Values(NormalMethod::kBlockTree, NormalMethod::kKdTree),
+    [](const auto& instance) {
+      return instance.param == NormalMethod::kBlockTree ? "BlockTree" : "KdTree";
+    });
+
+TEST_P(NormalEstimation, OfAWallLooksBackAtTheViewpoint) {
+  for (const double range : {2.0, -2.0}) {
+    const NormalResult result = estimate_normals(wall(range), Vector3d(0, 0, 0), options());
+    EXPECT_EQ(result.stats.valid, result.normals.size());
+    for (const Vector3f& normal : result.normals) {
+      EXPECT_NEAR(normal.x(), range > 0.0 ? -1.0F : 1.0F, 1e-5F);
+    }
+  }
+}
+
+TEST_P(NormalEstimation, TurnsEachNormalToItsOwnViewpoint) {
+  const std::vector<Vector3d> points = wall(0.0);
+  std::vector<Vector3f> viewpoints;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    viewpoints.emplace_back(i % 2 == 0 ? 3.0F : -3.0F, 0.0F, 0.0F);
+  }
+  const NormalResult result = estimate_normals(points, viewpoints, options());
+  EXPECT_EQ(result.stats.valid, points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    EXPECT_NEAR(result.normals[i].x(), i % 2 == 0 ? 1.0F : -1.0F, 1e-5F);
+  }
+}
+
+TEST_P(NormalEstimation, GivesUnitNormalsWhereValidAndZeroElsewhere) {
+  std::mt19937_64 rng = test::rng();
+  const test::TrueScan scan = room_scan(rng);
+  const NormalResult result = estimate_normals(scan.points, Vector3f(0, 0, 0), options());
+  EXPECT_GT(result.stats.valid, scan.points.size() / 3);
+  for (std::size_t i = 0; i < scan.points.size(); ++i) {
+    const bool is_valid = result.status[i] == NormalStatus::kValid;
+    EXPECT_NEAR(result.normals[i].norm(), is_valid ? 1.0F : 0.0F, 1e-6F);
+    EXPECT_LE(result.normals[i].dot(scan.points[i]), 0.0F);
+  }
+}
+
+TEST_P(NormalEstimation, RotatesWithThePoints) {
+  std::mt19937_64 rng = test::rng();
+  const test::TrueScan scan = room_scan(rng);
+  const Eigen::Matrix3d R = Eigen::Quaterniond(0.3, -0.5, 0.7, 0.2).normalized().matrix();
+  std::vector<Vector3d> rotated;
+  for (const Vector3f& point : scan.points) {
+    rotated.push_back(R * point.cast<double>());
+  }
+  const NormalResult before = estimate_normals(scan.points, Vector3d(0, 0, 0), options());
+  const NormalResult after = estimate_normals(rotated, Vector3d(0, 0, 0), options());
+  std::size_t differ = 0;  // a point at the rim of a neighbourhood may fall on the other side
+  for (std::size_t i = 0; i < rotated.size(); ++i) {
+    const Vector3d expected = R * before.normals[i].cast<double>();
+    differ += (after.normals[i].cast<double>() - expected).norm() > 1e-3 ? 1U : 0U;
+  }
+  EXPECT_LT(differ, rotated.size() / 200);
+}
+
+TEST_P(NormalEstimation, DoesNotDependOnWhereTheScanLies) {
+  std::mt19937_64 rng = test::rng();
+  const test::TrueScan scan = room_scan(rng);
+  const NormalResult near = estimate_normals(scan.points, Vector3d(0, 0, 0), options());
+  for (const Vector3d& offset : {Vector3d(1e6, -1e6, 1e6), Vector3d(-1e6, 1e6, -1e6)}) {
+    std::vector<Vector3d> points;
+    for (const Vector3f& point : scan.points) {
+      points.push_back(point.cast<double>() + offset);
+    }
+    const NormalResult far = estimate_normals(points, offset, options());
+    std::size_t differ = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      differ += (far.normals[i] - near.normals[i]).norm() > 1e-3F ? 1U : 0U;
+    }
+    EXPECT_LT(differ, points.size() / 200);
+  }
+}
+
+TEST_P(NormalEstimation, IsTheSameForEveryExecutor) {
+  std::mt19937_64 rng = test::rng();
+  const test::TrueScan scan = room_scan(rng);
+  const Vector3d viewpoint(0, 0, 0);
+  const NormalResult serial = estimate_normals(scan.points, viewpoint, options());
+  expect_same_bits(serial, estimate_normals(scan.points, viewpoint, options(), TbbExecutor()));
+  expect_same_bits(serial, estimate_normals(scan.points, viewpoint, options(), OpenMpExecutor()));
+}
+
+TEST_P(NormalEstimation, LeavesNoTraceOfEarlierScans) {
+  std::mt19937_64 rng = test::rng();
+  const test::TrueScan first = room_scan(rng), second = room_scan(rng);
+  const std::vector<Vector3f> few(second.points.begin(), second.points.begin() + 1000);
+  NormalEstimator estimator(options());
+  for (const std::vector<Vector3f>& points : {first.points, few, second.points, {}, few}) {
+    expect_same_bits(
+        estimator.estimate(points, Vector3d(0, 0, 0)),
+        estimate_normals(points, Vector3d(0, 0, 0), options()));
+  }
+}
+
+TEST_P(NormalEstimation, GivesBadPointsAStatusAndLosesNothing) {
+  std::vector<Vector3d> points = wall(2.0);
+  const std::size_t good = points.size();
+  points.insert(
+      points.begin(),
+      {{kNaN, 0, 0},
+       {kInfinity, 0, 0},
+       {0, -kInfinity, kNaN},
+       {0, 0, 0},
+       {0.1, 0, 0},
+       {1e30, 0, 0},
+       {-1e200, 1e200, 0},
+       {5e3, 0, 0},
+       {50, 0, 0}});
+  const NormalResult result = estimate_normals(points, Vector3d(0, 0, 0), options());
+  EXPECT_EQ(result.stats.valid, good);
+  EXPECT_EQ(result.stats.non_finite, 3U);
+  EXPECT_EQ(result.stats.too_near, 2U);
+  EXPECT_EQ(result.stats.too_far, 3U);
+  EXPECT_EQ(result.stats.few_neighbors, 1U);
+  EXPECT_EQ(result.status[0], NormalStatus::kNonFinite);
+  EXPECT_EQ(result.status[8], NormalStatus::kFewNeighbors);
+}
+
+TEST_P(NormalEstimation, TellsLinesAndVolumesFromPlanes) {
+  std::mt19937_64 rng = test::rng();
+  std::uniform_real_distribution<double> unit(-0.2, 0.2);
+  std::vector<Vector3d> line, ball, twins(30, Vector3d(2, 0, 0));
+  for (int i = 0; i < 100; ++i) {
+    line.emplace_back(2.0, 0.004 * (i - 50), 0.0);
+    ball.emplace_back(2.0 + unit(rng), unit(rng), unit(rng));
+  }
+  EXPECT_EQ(status_of_first(line, fixed_radius(0.3)), NormalStatus::kLineLike);
+  EXPECT_EQ(status_of_first(twins, fixed_radius(0.3)), NormalStatus::kLineLike);
+  EXPECT_EQ(status_of_first(ball, fixed_radius(1.0)), NormalStatus::kNotPlanar);
+  EXPECT_EQ(status_of_first({{2, 0, 0}}, fixed_radius(1.0)), NormalStatus::kFewNeighbors);
+}
+
+TEST_P(NormalEstimation, CountsThePointItselfAndThoseAtExactlyTheRadius) {
+  // Four neighbours at exactly 0.5 m, and the point: five.
+  const std::vector<Vector3d> points{
+      {2, 0, 0}, {2, 0.5, 0}, {2, -0.5, 0}, {2, 0, 0.5}, {2, 0, -0.5}};
+  NormalOptions five = fixed_radius(0.5);
+  five.min_neighbors = 5;
+  EXPECT_EQ(status_of_first(points, five), NormalStatus::kValid);
+  five.min_neighbors = 6;
+  EXPECT_EQ(status_of_first(points, five), NormalStatus::kFewNeighbors);
+}
+
+TEST_P(NormalEstimation, RefusesAWrongNumberOfViewpoints) {
+  const std::vector<Vector3d> points = wall(2.0), viewpoints(3, Vector3d(0, 0, 0));
+  try {
+    estimate_normals(points, viewpoints, options());
+    FAIL() << "accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("number of viewpoints = 3 must be"));
+  }
+}
+
+TEST_P(NormalEstimation, MarksPointsWithABadViewpoint) {
+  const std::vector<Vector3d> points = wall(2.0);
+  std::vector<Vector3d> viewpoints(points.size(), Vector3d(0, 0, 0));
+  viewpoints[0].x() = kNaN;  // also not usable as the local origin
+  viewpoints[7].y() = kInfinity;
+  viewpoints[9].x() = 1e9;
+  const NormalResult result = estimate_normals(points, viewpoints, options());
+  EXPECT_EQ(result.stats.non_finite, 2U);
+  EXPECT_EQ(result.stats.too_far, 1U);
+  EXPECT_EQ(result.stats.valid, points.size() - 3);
+}
+
+TEST_P(NormalEstimation, SurvivesViewpointsAGigametreApart) {
+  std::vector<Vector3d> points = wall(2.0);
+  std::vector<Vector3d> viewpoints(points.size(), Vector3d(0, 0, 0));
+  points.emplace_back(1e9 + 2.0, 0, 0);
+  viewpoints.emplace_back(1e9, 0, 0);
+  points.emplace_back(9000.0, 9000.0, -9000.0);
+  viewpoints.emplace_back(9001.0, 9000.0, -9000.0);
+  const NormalResult result = estimate_normals(points, viewpoints, options());
+  EXPECT_EQ(result.stats.far_origin, 1U);
+  EXPECT_EQ(result.stats.few_neighbors, 1U);
+  EXPECT_EQ(result.stats.valid, points.size() - 2);
+}
+
+TEST_P(NormalEstimation, AtQueriesUsesTheNeighborsOfTheFullCloud) {
+  std::mt19937_64 rng = test::rng();
+  const test::TrueScan scan = room_scan(rng);
+  std::vector<Vector3f> thinned;
+  for (std::size_t i = 0; i < scan.points.size(); i += 7) {
+    thinned.push_back(scan.points[i]);
+  }
+  thinned.emplace_back(std::numeric_limits<float>::quiet_NaN(), 0.0F, 0.0F);
+  NormalEstimator estimator(options());
+  const NormalResult all = estimator.estimate(scan.points, Vector3d(0, 0, 0));
+  const NormalResult some = estimator.estimate_at(thinned, scan.points, Vector3d(0, 0, 0));
+  ASSERT_EQ(some.normals.size(), thinned.size());
+  EXPECT_EQ(some.status.back(), NormalStatus::kNonFinite);
+  for (std::size_t i = 0; i + 1 < thinned.size(); ++i) {
+    EXPECT_EQ(some.status[i], all.status[7 * i]);
+    EXPECT_LT((some.normals[i] - all.normals[7 * i]).norm(), 1e-2F);
+  }
+}
+
+TEST(NormalMethods, AgreeOnEveryStatusOfARoom) {
+  std::mt19937_64 rng = test::rng();
+  const test::TrueScan scan = room_scan(rng);
+  NormalOptions options;
+  const NormalResult blocks = estimate_normals(scan.points, Vector3d(0, 0, 0), options);
+  options.method = NormalMethod::kKdTree;
+  const NormalResult reference = estimate_normals(scan.points, Vector3d(0, 0, 0), options);
+  std::size_t differ = 0;  // where a threshold is met to the last bits
+  for (std::size_t i = 0; i < scan.points.size(); ++i) {
+    if (blocks.status[i] != reference.status[i]) {
+      ++differ;
+    } else {
+      EXPECT_LT((blocks.normals[i] - reference.normals[i]).norm(), 1e-3F);
+    }
+  }
+  EXPECT_LE(differ, 2U);
+}
+
+TEST(NormalsOfDenseClouds, AreBoundedInWork) {
+  std::mt19937_64 rng = test::rng();
+  std::normal_distribution<double> spot(0.0, 0.01);
+  std::vector<Vector3d> points(100'000, Vector3d(2, 0, 0));
+  for (int i = 0; i < 100'000; ++i) {
+    points.emplace_back(2.0 + spot(rng), 3.0 + spot(rng), spot(rng));
+  }
+  const NormalResult result = estimate_normals(points, Vector3d(0, 0, 0), fixed_radius(0.3));
+  EXPECT_EQ(result.stats.line_like, 100'000U);
+  EXPECT_EQ(result.stats.not_planar, 100'000U);
+}
+
+struct EastNorthUp {
+  float x, y, z;
+  int intensity;
+};
+
+TEST(NormalEstimator, ReadsAnyPointRecord) {
+  const std::vector<Vector3d> points = wall(2.0);
+  std::vector<EastNorthUp> records;
+  for (const Vector3d& p : points) {
+    records.push_back(
+        {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()), 7});
+  }
+  const NormalResult result = estimate_normals(records, EastNorthUp{0, 0, 0, 0});
+  EXPECT_EQ(result.stats.valid, records.size());
+}
+
+TEST(NormalEstimator, RefusesBadOptions) {
+  NormalOptions options;
+  options.min_neighbors = 0;
+  EXPECT_THROW(NormalEstimator{options}, std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace nvm
