@@ -103,30 +103,40 @@ void LidarOdometry::match(const Normals& normals, FrameResult& result) {
   result.message = "too little of the scan fits the map";
 }
 
-// From the prediction, and when that does not convince, from the best of several starts.
+// From the prediction; when that does not convince, from coarse starts, first near ones.
 AlignResult LidarOdometry::align(const Normals& normals) {
-  const auto from = [&](const Pose& start) {
-    return aligner_.align(*map_, key_points_, key_normals_, start, executor_);
+  AlignResult best;
+  const auto convinced_by = [&](const std::vector<Pose>& starts) {
+    for (const Pose& start : starts) {
+      const AlignResult result = aligner_.align(*map_, key_points_, key_normals_, start, executor_);
+      if (result.cost <= best.cost) {
+        best = result;
+      }
+      if (convinces(result, start)) {
+        return true;
+      }
+    }
+    return false;
   };
-  const auto convinces = [&](const AlignResult& result) {
-    return result.inlier_share() >= options_.min_confident_share;
-  };
-  AlignResult best = from(predicted_.T_world_lidar());
-  if (convinces(best)) {
-    return best;
-  }
+  const Pose predicted = predicted_.T_world_lidar();
   const Pose standing_still = motion_->last().pose * options_.T_body_lidar;
-  for (const Pose& start :
-       search_.search(scan_.points, normals, {predicted_.T_world_lidar(), standing_still})) {
-    const AlignResult result = from(start);
-    if (result.cost < best.cost) {
-      best = result;
-    }
-    if (convinces(best)) {
-      break;
-    }
+  const std::vector<Pose> near = {predicted, standing_still};
+  if (!convinced_by({predicted}) && !convinced_by(search_.search(scan_.points, normals, near))) {
+    convinced_by(search_.search(scan_.points, normals, search_.turned(near)));
   }
   return best;
+}
+
+// An alignment that moves the points farther than they can be associated may have ended anywhere.
+bool LidarOdometry::convinces(const AlignResult& result, const Pose& start) const {
+  double sum_sq_motions = 0.0;
+  for (const Eigen::Vector3f& point : key_points_) {
+    const Eigen::Vector3d p_scan = point.cast<double>();
+    sum_sq_motions += (result.T_map_scan * p_scan - start * p_scan).squaredNorm();
+  }
+  const double max_motion = options_.max_confident_motion;
+  return result.inlier_share() >= options_.min_confident_share &&
+         sum_sq_motions <= max_motion * max_motion * static_cast<double>(key_points_.size());
 }
 
 void LidarOdometry::insert(const Normals& normals, FrameResult& result) {
@@ -157,6 +167,7 @@ void LidarOdometryOptions::validate() const {
       "min_confident_share",
       min_confident_share,
       "0 to 1");
+  require(max_confident_motion > 0.0, "max_confident_motion", max_confident_motion, "positive [m]");
   require(
       min_inlier_share >= 0.0 && min_inlier_share <= 1.0,
       "min_inlier_share",

@@ -25,8 +25,10 @@ struct LidarOdometryOptions {
   KeypointOptions keypoints;
   AlignOptions align;
   StartSearchOptions search;
-  /// When a smaller share of the keypoints fits, other starts are searched, 0 to 1.
+  /// Other starts are searched when a smaller share of the keypoints fits, 0 to 1, or when the
+  /// alignment moves them by more than this [m, root mean square], positive.
   double min_confident_share = 0.8;
+  double max_confident_motion = 0.3;
   /// When a smaller share fits even then, the frame is not believed, 0 to 1.
   double min_inlier_share = 0.5;
   /// The velocity holds for this long without a believed frame; then the frame counts as lost and
@@ -60,6 +62,7 @@ class LidarOdometry final : public Pipeline {
   const Normals& prepare(const Scan& scan, FrameResult& result);
   void match(const Normals& normals, FrameResult& result);
   AlignResult align(const Normals& normals);
+  bool convinces(const AlignResult& result, const Pose& start) const;
   void insert(const Normals& normals, FrameResult& result);
 
   LidarOdometryOptions options_;

@@ -61,8 +61,8 @@ std::vector<Pose> StartSearch::search(
     key_normals.push_back(normals[index]);
   }
   std::vector<AlignResult> found;
-  for (const Pose& start : starts(guesses)) {
-    found.push_back(aligner_.align(map_, key_points, key_normals, start, executor_));
+  for (const Pose& guess : guesses) {
+    found.push_back(aligner_.align(map_, key_points, key_normals, guess, executor_));
   }
   std::stable_sort(found.begin(), found.end(), [](const AlignResult& a, const AlignResult& b) {
     return a.cost < b.cost;
@@ -74,14 +74,13 @@ std::vector<Pose> StartSearch::search(
   return poses;
 }
 
-std::vector<Pose> StartSearch::starts(const std::vector<Pose>& guesses) const {
-  std::vector<Pose> result = guesses;
+std::vector<Pose> StartSearch::turned(const std::vector<Pose>& guesses) const {
+  std::vector<Pose> result;
   for (const Pose& guess : guesses) {
     for (int axis = 0; axis < 3 && options_.turn > 0.0; ++axis) {
       for (const double angle : {-options_.turn, options_.turn}) {
-        Pose turned = guess;
-        turned.linear() *= so3_exp(angle * Eigen::Vector3d::Unit(axis));
-        result.push_back(turned);
+        result.push_back(guess);
+        result.back().linear() *= so3_exp(angle * Eigen::Vector3d::Unit(axis));
       }
     }
   }

@@ -19,7 +19,7 @@ struct StartSearchOptions {
   double voxel_size = 1.0;
   /// At most one keypoint in each cube of this edge [m], positive.
   double keypoint_spacing = 1.0;
-  /// Starts are also tried turned by this angle about each axis [rad], 0 (not at all) to pi.
+  /// How far turned() turns [rad], 0 (not at all) to pi.
   double turn = 0.5;
 
   /// Throws std::invalid_argument with the name, the value and the allowed range of the first bad
@@ -40,16 +40,16 @@ class StartSearch {
       const std::vector<Eigen::Vector3f>& normals,
       const Pose& T_map_scan);
 
-  /// Coarse poses of a scan, those that fit best first: aligned from each of `guesses` and from
-  /// each of them turned about the scan's axes.
+  /// The poses that alignment to the coarse map finds from each of `guesses`, best fit first.
   std::vector<Pose> search(
       const std::vector<Eigen::Vector3f>& points,
       const std::vector<Eigen::Vector3f>& normals,
       const std::vector<Pose>& guesses);
 
- private:
-  std::vector<Pose> starts(const std::vector<Pose>& guesses) const;
+  /// Each of `guesses` turned about each of the scan's axes, both ways.
+  std::vector<Pose> turned(const std::vector<Pose>& guesses) const;
 
+ private:
   StartSearchOptions options_;
   Executor executor_;
   VoxelMap map_;

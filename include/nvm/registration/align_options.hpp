@@ -48,6 +48,9 @@ struct AlignResult {
   int iterations = 0;
   AssociationCounts counts;
   double rms_distance = 0.0;  ///< of the associated points to their planes [m]
+  /// Mean over all points of (distance / max_plane_distance)^2, 1 for those without a plane: 0
+  /// (perfect) to 1 (nothing fits). Ranks poses of one scan.
+  double cost = 1.0;
   /// Weighted information of the pose (sum w J J^T over a PoseStep) [1/m^2 per residual of 1 m].
   PoseMatrix information = PoseMatrix::Zero();
   std::array<double, 6> observability{};  ///< ascending, see PoseSolution

@@ -79,6 +79,13 @@ struct NormalEquations {
                              : std::sqrt(sum_sq_distances / static_cast<double>(counts.valid));
   }
 
+  /// Mean over all points of (distance / max_distance)^2, 1 for those without a plane.
+  double truncated_cost(double max_distance) const {
+    const auto total = static_cast<double>(counts.total());
+    const double fitting = sum_sq_distances / (max_distance * max_distance);
+    return total == 0.0 ? 1.0 : (fitting + total - static_cast<double>(counts.valid)) / total;
+  }
+
   NormalEquations& operator+=(const NormalEquations& other) {
     information += other.information;
     gradient += other.gradient;

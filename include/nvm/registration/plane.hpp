@@ -3,12 +3,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <optional>
 
+#include "nvm/geometry/moments.hpp"
+#include "nvm/geometry/symmetric_eigen.hpp"
 #include "nvm/map/neighbor.hpp"
 
 namespace nvm {
@@ -30,25 +29,27 @@ inline std::optional<Plane> fit_plane(const Neighbor* neighbors, std::size_t cou
   }
   // Relative to a neighbour, so that nothing cancels far from the map's origin.
   const Eigen::Vector3d origin = neighbors[0].position;
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d sum_of_squares = Eigen::Matrix3d::Zero();
-  for (std::size_t i = 1; i < count; ++i) {
-    const Eigen::Vector3d d = neighbors[i].position - origin;
-    sum += d;
-    sum_of_squares.noalias() += d * d.transpose();
+  Moments<double> moments;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Eigen::Vector3d offset = neighbors[i].position - origin;
+    moments.add(1.0, offset.x(), offset.y(), offset.z());
   }
+  const Eigen3<double> eigen = eigen_decomposition(scatter(moments));
   const double share = 1.0 / static_cast<double>(count);
-  const Eigen::Vector3d mean = share * sum;
-  const Eigen::Matrix3d covariance = share * sum_of_squares - mean * mean.transpose();
-
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
-  eigen.computeDirect(covariance);
-  const Eigen::Vector3d sigma = eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt();  // ascending
+  const Eigen::Vector3d deviation =
+      (share * Eigen::Vector3d(eigen.smallest, eigen.middle, eigen.largest))
+          .cwiseMax(0.0)
+          .cwiseSqrt();
   constexpr double kCollinear = 1e-3;
-  if (!(sigma[2] > 0.0) || sigma[1] < kCollinear * sigma[2]) {
+  if (!(deviation[2] > 0.0) || deviation[1] < kCollinear * deviation[2]) {
     return std::nullopt;
   }
-  return Plane{origin + mean, eigen.eigenvectors().col(0), (sigma[1] - sigma[0]) / sigma[2], sigma};
+  const auto& [x, y, z] = eigen.smallest_vector;
+  return Plane{
+      origin + share * Eigen::Vector3d(moments.x, moments.y, moments.z),
+      Eigen::Vector3d(x, y, z),
+      (deviation[1] - deviation[0]) / deviation[2],
+      deviation};
 }
 
 }  // namespace nvm

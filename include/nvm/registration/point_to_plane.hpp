@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "nvm/geometry/pose.hpp"
 
@@ -13,10 +14,12 @@ namespace nvm {
 using PoseStep = Eigen::Matrix<double, 6, 1, Eigen::DontAlign>;
 
 /// `T_map_scan` changed by `step`: R Exp(step[0:3]), t + step[3:6]. Rotating about the sensor keeps
-/// the problem well conditioned wherever the scan lies in the map.
+/// the problem well conditioned wherever the scan lies in the map. The rotation is orthonormal
+/// again afterwards: rounding errors would double with each constant-velocity prediction.
 inline Pose retract(const Pose& T_map_scan, const PoseStep& step) {
   Pose result = T_map_scan;
-  result.linear() = T_map_scan.linear() * so3_exp(step.head<3>());
+  const Eigen::Quaterniond rotation(T_map_scan.linear() * so3_exp(step.head<3>()));
+  result.linear() = rotation.normalized().toRotationMatrix();
   result.translation() += step.tail<3>();
   return result;
 }

@@ -123,10 +123,11 @@ class ScanAligner {
            step.tail<3>().norm() <= options_.converged_translation;
   }
 
-  static void describe(
-      const NormalEquations& equations, const PoseSolution& solution, AlignResult& result) {
+  void describe(
+      const NormalEquations& equations, const PoseSolution& solution, AlignResult& result) const {
     result.counts = equations.counts;
     result.rms_distance = equations.rms_distance();
+    result.cost = equations.truncated_cost(options_.association.max_plane_distance);
     result.information = equations.information;
     result.observability = solution.observability;
     result.degenerate_directions = solution.degenerate_directions;
