@@ -14,10 +14,18 @@
 
 namespace nvm::io {
 
+/// The unit of an IMU's accelerations.
+enum class AccelUnit {
+  kAutomatic,  ///< g when the first hundred samples have a median length below 3, else m/s^2
+  kMetrePerSquareSecond,
+  kStandardGravity,  ///< 9.80665 m/s^2, as Livox drivers give it
+};
+
 /// How to read what a recording does not tell itself.
 struct SequenceOptions {
   std::string lidar_topic;  ///< of a bag; empty: the first one with point clouds
   std::string imu_topic;    ///< of a bag; empty: the first one with IMU messages
+  AccelUnit accel_unit = AccelUnit::kAutomatic;  ///< of a bag
   TimeUnit point_time_unit = TimeUnit::kAutomatic;
   double scan_rate = 10.0;  ///< [Hz], 0.01 to 1000; of scan files without any time
 };
