@@ -1,8 +1,11 @@
 # Helpers for nvm's own targets; nothing here reaches a user's targets.
 
+# gcc's -Wconversion leaves changes of sign out, and GoogleTest's macros take no arguments.
+set(nvm_clang_silences -Wno-sign-conversion -Wno-gnu-zero-variadic-macro-arguments)
 add_library(nvm_warnings INTERFACE)
 target_compile_options(
   nvm_warnings INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wshadow
+                         "$<$<CXX_COMPILER_ID:Clang,AppleClang>:${nvm_clang_silences}>"
                          $<$<BOOL:${NVM_WARNINGS_AS_ERRORS}>:-Werror>)
 
 # nvm_add_component(NAME sources...): a compiled part of nvm, src/NAME, as target nvm_NAME and nvm::NAME.
