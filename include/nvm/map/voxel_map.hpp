@@ -23,6 +23,7 @@
 #include "nvm/map/operations/erasure.hpp"
 #include "nvm/map/operations/insertion.hpp"
 #include "nvm/map/operations/nearest_query.hpp"
+#include "nvm/map/operations/point_block.hpp"
 #include "nvm/map/operations/query_context.hpp"
 #include "nvm/map/operations/traversal.hpp"
 #include "nvm/map/storage/lattice.hpp"
@@ -83,17 +84,13 @@ class VoxelMap {
     static_assert(
         is_point_range_v<Normals>, "nvm: normals must be a range of 3-vectors as long as points");
     require(points.size() == normals.size(), "normals.size()", normals.size(), "points.size()");
-    const Eigen::Matrix3d R = T_map_scan.linear();
-    return insert_all(
-        points.size(),
-        T_map_scan,
-        [&](std::size_t i, detail::StoredNormal& stored) {
-          const Eigen::Vector3d rotated = R * nvm::position(normals[i]);
-          const Eigen::Vector3f normal = rotated.cast<float>();
-          stored = detail::store_normal(normal);
-          return detail::is_unit(normal);
-        },
-        points);
+    return insert_blocks(
+        points, T_map_scan, [&](std::size_t begin, std::size_t end, detail::PointBlock& block) {
+          for (std::size_t i = begin; i < end; ++i) {
+            block.set_normal(i - begin, nvm::position(normals[i]));
+          }
+          block.turn_normals(T_map_scan);
+        });
   }
 
   /// Inserts points without normals: all go to the front surface of their voxel, and only ungated
@@ -103,14 +100,10 @@ class VoxelMap {
   InsertStats insert_unsided(const Points& points, const Pose& T_map_scan = Pose::Identity()) {
     static_assert(
         is_point_range_v<Points>, "nvm: points must be a range of points: size(), [] and x, y, z");
-    return insert_all(
-        points.size(),
-        T_map_scan,
-        [](std::size_t, detail::StoredNormal& stored) {
-          stored = {};
-          return true;
-        },
-        points);
+    return insert_blocks(
+        points, T_map_scan, [](std::size_t, std::size_t, detail::PointBlock& block) {
+          block.drop_normals();
+        });
   }
 
   // --- queries: const, noexcept, no allocation
@@ -215,33 +208,26 @@ class VoxelMap {
  private:
   friend class MapArchive;
 
-  template <class Points, class ReadNormal>
-  InsertStats insert_all(
-      std::size_t count,
-      const Pose& T_map_scan,
-      const ReadNormal& read_normal,
-      const Points& points) {
+  template <class Points, class ReadNormals>
+  InsertStats insert_blocks(
+      const Points& points, const Pose& T_map_scan, const ReadNormals& read_normals) {
     if (!is_rigid(T_map_scan)) {
       throw std::invalid_argument(
           "nvm: T_map_scan must be rigid: finite, with an orthonormal rotation");
     }
     detail::Insertion insertion(options_, lattice_, storage_, cache_);
-    InsertStats& stats = insertion.stats();
-    for (std::size_t i = 0; i < count; ++i) {
-      detail::LatticePoint point;
-      detail::StoredNormal normal;
-      const detail::LatticeStatus status =
-          lattice_.locate(T_map_scan * nvm::position(points[i]), point);
-      if (status == detail::LatticeStatus::kNonFinite) {
-        ++stats.non_finite;
-      } else if (status == detail::LatticeStatus::kOutOfRange) {
-        ++stats.out_of_range;
-      } else if (!read_normal(i, normal)) {
-        ++stats.no_normal;
-      } else {
-        insertion.insert(point, normal);
+    detail::PointBlock block;
+    const auto size = static_cast<std::size_t>(points.size());
+    for (std::size_t begin = 0; begin < size; begin += detail::PointBlock::kSize) {
+      const std::size_t end = std::min(begin + detail::PointBlock::kSize, size);
+      for (std::size_t i = begin; i < end; ++i) {
+        block.set_position(i - begin, nvm::position(points[i]));
       }
+      block.locate(T_map_scan, lattice_);
+      read_normals(begin, end, block);
+      insertion.insert(block, end - begin);
     }
+    InsertStats& stats = insertion.stats();
     if (options_.eviction == Eviction::kRadius) {
       const std::size_t voxels = voxel_count();
       stats.evicted_points +=

@@ -8,6 +8,7 @@
 
 #include "nvm/map/insert_stats.hpp"
 #include "nvm/map/map_options.hpp"
+#include "nvm/map/operations/point_block.hpp"
 #include "nvm/map/storage/lanes.hpp"
 #include "nvm/map/storage/lattice.hpp"
 #include "nvm/map/storage/stored_normal.hpp"
@@ -26,52 +27,74 @@ class Insertion {
         max_surface_dot_(dot_threshold(options.max_surface_angle)),
         min_sq_steps_(lattice.sq_steps(options.min_point_distance)),
         storage_(storage),
-        cache_(cache) {
+        cache_(cache),
+        number_(cache.begin_insertion()) {
     storage_.recency().begin_epoch();
   }
 
-  /// Stores one point; a zero `normal` means none and goes to the front surface.
-  void insert(const LatticePoint& point, const StoredNormal& normal) {
-    std::uint32_t head = find_or_create(point.voxel);
-    if (head == kNone) {
-      ++stats_.map_full;
-      return;
+  /// Stores the first `count` points of the block; those without normal go to the front surface.
+  void insert(const PointBlock& block, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      switch (block.status(i)) {
+        case PointBlock::Status::kOk:
+          insert(block.key(i), block.voxel(i), block.wrapped(i), block.normal(i));
+          break;
+        case PointBlock::Status::kNonFinite:
+          ++stats_.non_finite;
+          break;
+        case PointBlock::Status::kOutOfRange:
+          ++stats_.out_of_range;
+          break;
+        case PointBlock::Status::kNoNormal:
+          ++stats_.no_normal;
+          break;
+      }
     }
-    const std::uint32_t voxel = storage_.chunk(head).voxel;
-    storage_.recency().use(voxel);
-    const std::uint32_t surface = surface_for(head, normal);
-    if (surface == kNone) {
-      ++stats_.map_full;
-      return;
-    }
-    add_to_surface(surface, wrap(point), normal);
   }
 
   InsertStats& stats() noexcept { return stats_; }
 
  private:
-  std::uint32_t find_or_create(const VoxelIndex& index) {
-    const IndexKey key = index_key(index);
-    std::uint32_t head = cache_.find(key, index);
-    if (head != kNone) {
-      return head;
-    }
-    head = storage_.find_voxel(index);
-    if (head == kNone) {
-      if (!make_room_for_voxel(index)) {
-        return kNone;
+  void insert(
+      IndexKey key,
+      const VoxelIndex& index,
+      const WrappedPoint& point,
+      const StoredNormal& normal) {
+    VoxelCache::Entry& cached = cache_.at(index);
+    if (cached.key != key || cached.insertion != number_) {
+      const std::uint32_t found = cached.key == key ? cached.head : find_or_create(index);
+      if (found == kNone) {
+        ++stats_.map_full;
+        return;
       }
-      head = storage_.create_voxel(index);
-      ++stats_.new_voxels;
+      storage_.recency().use(storage_.chunk(found).voxel);
+      cached = {key, found, number_};
     }
-    cache_.remember(key, index, head);
-    return head;
+    const std::uint32_t head = cached.head;
+    const std::uint32_t surface = surface_for(head, normal);
+    if (surface == kNone) {
+      ++stats_.map_full;
+      return;
+    }
+    add_to_surface(surface, point, normal);
+  }
+
+  std::uint32_t find_or_create(const VoxelIndex& index) {
+    const std::uint32_t found = storage_.find_voxel(index);
+    if (found != kNone) {
+      return found;
+    }
+    if (!make_room_for_voxel(index)) {
+      return kNone;
+    }
+    ++stats_.new_voxels;
+    return storage_.create_voxel(index);
   }
 
   /// The view-consistency judgment (paper III-B-1, spec §3.4). Head of the surface that takes the
   /// normal, made when needed; kNone without room for it.
   std::uint32_t surface_for(std::uint32_t front, const StoredNormal& normal) {
-    if (dot(normal, normal) == 0 || storage_.chunk(front).size == 0) {
+    if (normal == StoredNormal{} || storage_.chunk(front).size == 0) {
       return front;
     }
     const Choice choice = options_.surface_rule == SurfaceRule::kPaper
@@ -199,6 +222,7 @@ class Insertion {
   std::int32_t min_sq_steps_;
   VoxelStorage& storage_;
   VoxelCache& cache_;
+  std::uint32_t number_;
   InsertStats stats_;
 };
 

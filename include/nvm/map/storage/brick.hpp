@@ -26,11 +26,13 @@ inline VoxelIndex brick_index(const VoxelIndex& voxel) {
   return {voxel.x() >> kBrickBits, voxel.y() >> kBrickBits, voxel.z() >> kBrickBits};
 }
 
-inline IndexKey index_key(const VoxelIndex& index) {
+inline IndexKey index_key(std::int32_t x, std::int32_t y, std::int32_t z) {
   constexpr std::uint64_t kMask = (1U << 21) - 1;
   const auto field = [](std::int32_t i) { return static_cast<std::uint32_t>(i) & kMask; };
-  return field(index.x()) | field(index.y()) << 21 | field(index.z()) << 42 |
-         std::uint64_t{1} << 63;
+  return field(x) | field(y) << 21 | field(z) << 42 | std::uint64_t{1} << 63;
+}
+inline IndexKey index_key(const VoxelIndex& index) {
+  return index_key(index.x(), index.y(), index.z());
 }
 
 inline VoxelIndex index_of_key(IndexKey key) {

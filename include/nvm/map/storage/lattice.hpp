@@ -33,6 +33,17 @@ struct WrappedPoint {
   std::int16_t x, y, z;
 };
 
+inline std::int32_t floor_to_int(double value) {
+  const auto truncated = static_cast<std::int32_t>(value);
+  return truncated - static_cast<std::int32_t>(value < truncated);
+}
+
+/// One coordinate of a point modulo 8 voxels.
+inline std::int16_t wrap(std::int32_t voxel, std::int32_t step) {
+  return static_cast<std::int16_t>(
+      (static_cast<std::uint32_t>(voxel) << kStepBits) + static_cast<std::uint32_t>(step));
+}
+
 enum class LatticeStatus : std::uint8_t { kInside, kNonFinite, kOutOfRange };
 
 /// Converts between the map frame [m] and the lattice.
@@ -43,16 +54,25 @@ class Lattice {
         meters_per_step_(voxel_size / kStepsPerVoxel),
         steps_per_meter_(kStepsPerVoxel / voxel_size) {}
 
+  /// Whether the lattice holds a position given in voxels.
+  static LatticeStatus judge(const Eigen::Vector3d& scaled) noexcept {
+    // Written so that NaN fails the first test.
+    if (std::abs(scaled.x()) < kMaxVoxelIndex && std::abs(scaled.y()) < kMaxVoxelIndex &&
+        std::abs(scaled.z()) < kMaxVoxelIndex) {
+      return LatticeStatus::kInside;
+    }
+    return scaled.allFinite() ? LatticeStatus::kOutOfRange : LatticeStatus::kNonFinite;
+  }
+
   /// The lattice point of `position` [m]; `out` is written only when the result is kInside.
   LatticeStatus locate(const Eigen::Vector3d& position, LatticePoint& out) const noexcept {
     const Eigen::Vector3d scaled = position * voxels_per_meter_;
-    const double largest = scaled.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
-    if (!(largest < kMaxVoxelIndex)) {
-      return std::isfinite(largest) ? LatticeStatus::kOutOfRange : LatticeStatus::kNonFinite;
+    const LatticeStatus status = judge(scaled);
+    if (status != LatticeStatus::kInside) {
+      return status;
     }
     for (int axis = 0; axis < 3; ++axis) {
-      const auto truncated = static_cast<std::int32_t>(scaled[axis]);
-      const std::int32_t floor = truncated - static_cast<std::int32_t>(scaled[axis] < truncated);
+      const std::int32_t floor = floor_to_int(scaled[axis]);
       out.voxel[axis] = floor;
       out.step[axis] = static_cast<std::int32_t>((scaled[axis] - floor) * kStepsPerVoxel);
     }
@@ -85,12 +105,10 @@ class Lattice {
 };
 
 inline WrappedPoint wrap(const LatticePoint& point) {
-  const auto wrapped = [&](int axis) {
-    const std::uint32_t steps = (static_cast<std::uint32_t>(point.voxel[axis]) << kStepBits) +
-                                static_cast<std::uint32_t>(point.step[axis]);
-    return static_cast<std::int16_t>(static_cast<std::uint16_t>(steps));
-  };
-  return {wrapped(0), wrapped(1), wrapped(2)};
+  return {
+      wrap(point.voxel.x(), point.step.x()),
+      wrap(point.voxel.y(), point.step.y()),
+      wrap(point.voxel.z(), point.step.z())};
 }
 
 /// The steps inside its voxel of a stored coordinate.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -22,19 +23,20 @@ inline bool operator==(const StoredNormal& a, const StoredNormal& b) {
 
 inline constexpr int kNormalScale = 127;
 
-/// True for a finite vector whose length is 1 within 1 %.
-inline bool is_unit(const Eigen::Vector3f& normal) {
-  const float sq_length = normal.squaredNorm();
-  return sq_length > 0.98F && sq_length < 1.02F;
+/// True when a vector of this squared length is a unit vector, within 1 %; false for NaN.
+inline bool is_unit_length(float sq_length) { return std::abs(sq_length - 1.0F) < 0.02F; }
+inline bool is_unit(const Eigen::Vector3f& normal) { return is_unit_length(normal.squaredNorm()); }
+
+/// A component of a unit vector, rounded. (Adding 128 first turns truncation into rounding for
+/// either sign.)
+inline std::int8_t store_component(float value) {
+  const int rounded = static_cast<int>(value * kNormalScale + 128.5F) - 128;
+  return static_cast<std::int8_t>(std::min(std::max(rounded, -kNormalScale), kNormalScale));
 }
 
 /// `normal` must be a unit vector (or zero).
 inline StoredNormal store_normal(const Eigen::Vector3f& normal) {
-  const auto round = [](float value) {
-    return static_cast<std::int8_t>(
-        std::nearbyint(std::fmin(std::fmax(value, -1.0F), 1.0F) * kNormalScale));
-  };
-  return {round(normal.x()), round(normal.y()), round(normal.z())};
+  return {store_component(normal.x()), store_component(normal.y()), store_component(normal.z())};
 }
 
 inline Eigen::Vector3f load_normal(const StoredNormal& normal) {

@@ -15,22 +15,27 @@ namespace nvm::detail {
 /// again. Direct-mapped.
 class VoxelCache {
  public:
-  /// Head chunk of the voxel, or kNone when it is not remembered.
-  std::uint32_t find(IndexKey key, const VoxelIndex& voxel) const noexcept {
-    const Entry& entry = entries_[slot(voxel)];
-    return entry.key == key ? entry.head : kNone;
+  struct Entry {
+    IndexKey key = 0;
+    std::uint32_t head = kNone;   // head chunk of the voxel
+    std::uint32_t insertion = 0;  // the latest one that used the voxel
+  };
+
+  /// Starts an insertion and returns its number.
+  std::uint32_t begin_insertion() noexcept {
+    if (++insertion_ == 0) {
+      clear();
+      ++insertion_;
+    }
+    return insertion_;
   }
-  void remember(IndexKey key, const VoxelIndex& voxel, std::uint32_t head) noexcept {
-    entries_[slot(voxel)] = {key, head};
-  }
+
+  /// The place of the voxel; another voxel, or none, may be remembered there.
+  Entry& at(const VoxelIndex& voxel) noexcept { return entries_[slot(voxel)]; }
   void forget(const VoxelIndex& voxel) noexcept { entries_[slot(voxel)] = {}; }
   void clear() noexcept { entries_.fill({}); }
 
  private:
-  struct Entry {
-    IndexKey key = 0;
-    std::uint32_t head = kNone;
-  };
   static constexpr std::uint32_t kSlots = 1024;
 
   // Strides that spread a wall along any axis over the slots.
@@ -42,6 +47,7 @@ class VoxelCache {
   }
 
   std::array<Entry, kSlots> entries_{};
+  std::uint32_t insertion_ = 0;
 };
 
 }  // namespace nvm::detail
