@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <vector>
 
 #include "lio/motion_segment.hpp"
 #include "nvm/geometry/pose.hpp"
@@ -33,6 +34,15 @@ class ConstantVelocity {
     segment.T_world_body = segment.pose_at(std::min(time, last_.time + horizon));
     segment.time = time;
     return segment;
+  }
+
+  /// The motion from `begin` to `end` [s] as pieces short enough for deskew(), into `pieces`.
+  void sweep(double begin, double end, double horizon, std::vector<MotionSegment>& pieces) const {
+    const int count = end > begin ? 10 : 1;
+    pieces.clear();
+    for (int i = 0; i < count; ++i) {
+      pieces.push_back(at(begin + i * (end - begin) / count, horizon));
+    }
   }
 
  private:

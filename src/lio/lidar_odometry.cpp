@@ -46,18 +46,13 @@ bool LidarOdometry::is_usable(const Scan& scan, FrameResult& result) const {
   return result.message.empty();
 }
 
-// Straight pieces of the motion over the sweep, short enough for deskew(), and the pose at its end.
 void LidarOdometry::predict(const Scan& scan) {
-  constexpr int kPieces = 10;
+  const double horizon = options_.max_weak_duration;
   const ConstantVelocity motion =
       motion_.value_or(ConstantVelocity({scan.t_end, Pose::Identity()}));
-  const double piece = (scan.t_end - scan.t_begin) / kPieces;
-  segments_.clear();
-  for (int i = 0; i == 0 || (i < kPieces && piece > 0.0); ++i) {
-    segments_.push_back(motion.at(scan.t_begin + i * piece, options_.max_weak_duration));
-  }
+  motion.sweep(scan.t_begin, scan.t_end, horizon, segments_);
   predicted_.time = scan.t_end;
-  predicted_.T_world_body = motion.at(scan.t_end, options_.max_weak_duration).T_world_body;
+  predicted_.T_world_body = motion.at(scan.t_end, horizon).T_world_body;
 }
 
 const LidarOdometry::Normals& LidarOdometry::prepare(const Scan& scan, FrameResult& result) {

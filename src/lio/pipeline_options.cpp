@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The nvm authors
 #include "lio/pipeline_options.hpp"
 
+#include <stdexcept>
+
 #include "lio/continuous_matcher.hpp"
 #include "lio/filter_matcher.hpp"
 
@@ -9,7 +11,8 @@ namespace nvm::lio {
 
 namespace {
 
-std::unique_ptr<ScanMatcher> make_matcher(const PipelineOptions& options, const Executor& executor) {
+std::unique_ptr<ScanMatcher> make_matcher(
+    const PipelineOptions& options, const Executor& executor) {
   switch (options.type) {
     case PipelineType::kCtLio:
       return std::make_unique<AlignedMatcher>(options.align, options.observation, executor);
@@ -18,6 +21,18 @@ std::unique_ptr<ScanMatcher> make_matcher(const PipelineOptions& options, const 
     default:
       return std::make_unique<FilterMatcher>(options.measurement, options.iteration, executor);
   }
+}
+
+LidarOdometryOptions lidar_only_options(const PipelineOptions& options) {
+  LidarOdometryOptions lidar_only = options.lidar_only;
+  const InertialOptions& shared = options.inertial;
+  lidar_only.range = shared.range;
+  lidar_only.normals = shared.normals;
+  lidar_only.keypoints = shared.keypoints;
+  lidar_only.min_inlier_share = shared.min_inlier_share;
+  lidar_only.T_body_lidar = shared.T_imu_lidar;
+  lidar_only.align = options.align;
+  return lidar_only;
 }
 
 }  // namespace
@@ -32,11 +47,21 @@ PipelineOptions::PipelineOptions() {
   align.converged_rotation = 5e-5;
 }
 
+PipelineType resolve(PipelineType type, bool has_imu) {
+  if (type == PipelineType::kAutomatic) {
+    return has_imu ? PipelineType::kFastLio : PipelineType::kLidarOnly;
+  }
+  if (!has_imu && type != PipelineType::kLidarOnly) {
+    throw std::invalid_argument("this pipeline needs an IMU: without one, set pipeline=lidar_only");
+  }
+  return type;
+}
+
 std::unique_ptr<Pipeline> make_pipeline(const PipelineOptions& options) {
   const Executor executor(options.threads);
   std::unique_ptr<LioMap> map = make_map(options.map_type, options.map);
   if (options.type == PipelineType::kLidarOnly) {
-    return std::make_unique<LidarOdometry>(options.lidar_only, std::move(map), executor);
+    return std::make_unique<LidarOdometry>(lidar_only_options(options), std::move(map), executor);
   }
   return std::make_unique<InertialPipeline>(
       options.inertial, std::move(map), make_matcher(options, executor), executor);

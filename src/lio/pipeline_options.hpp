@@ -17,6 +17,7 @@ class Schema;
 namespace nvm::lio {
 
 enum class PipelineType {
+  kAutomatic,        ///< fast_lio with an IMU, lidar_only without; see resolve()
   kFastLio,          ///< iterated Kalman filter, tightly coupled
   kCtLio,            ///< scan-to-map optimisation, one pose per scan, loosely coupled
   kCtLioContinuous,  ///< the same with a pose at the scan's begin and one at its end
@@ -25,7 +26,7 @@ enum class PipelineType {
 
 /// All that a run can configure.
 struct PipelineOptions {
-  PipelineType type = PipelineType::kFastLio;
+  PipelineType type = PipelineType::kAutomatic;
   int threads = 1;  ///< 1 to 256
   MapType map_type = MapType::kNvm;
   MapOptions map;
@@ -34,6 +35,8 @@ struct PipelineOptions {
   IterationOptions iteration;      ///< fast_lio
   AlignOptions align;              ///< ct_lio
   PoseObservation observation;     ///< ct_lio
+  /// Its own part only: what it shares with the inertial pipelines comes from `inertial` and
+  /// `align`.
   LidarOdometryOptions lidar_only;
 
   PipelineOptions();
@@ -42,7 +45,12 @@ struct PipelineOptions {
 /// Binds the keys of a run's configuration to `options`.
 void bind(config::Schema& schema, PipelineOptions& options);
 
-/// The pipeline that `options` describe. Throws std::invalid_argument for the first bad option.
+/// `type` for a sequence with or without an IMU. Throws std::invalid_argument when it needs the IMU
+/// that there is not.
+PipelineType resolve(PipelineType type, bool has_imu);
+
+/// The pipeline that `options` describe, whose type is resolved. Throws std::invalid_argument for
+/// the first bad option.
 std::unique_ptr<Pipeline> make_pipeline(const PipelineOptions& options);
 
 }  // namespace nvm::lio

@@ -137,13 +137,36 @@ void bind_optimization(Schema& schema, PipelineOptions& options) {
   schema.add("rotation_deviation", observation.rotation_deviation, kPositive, "[rad]");
 }
 
+void bind_lidar_only(Schema& schema, LidarOdometryOptions& lidar_only) {
+  schema.add(
+      "min_confident_share",
+      lidar_only.min_confident_share,
+      kShare,
+      "Other starts are searched when less of a scan fits");
+  schema.add(
+      "max_confident_motion",
+      lidar_only.max_confident_motion,
+      kPositive,
+      "Or when the alignment moves it by more [m]");
+  schema.add(
+      "max_weak_duration",
+      lidar_only.max_weak_duration,
+      kNotNegative,
+      "How long the velocity holds without a believed frame [s]");
+  StartSearchOptions& search = lidar_only.search;
+  schema.add("search_voxel_size", search.voxel_size, {0.1, 10.0}, "Of the coarse map [m]");
+  schema.add("search_keypoint_spacing", search.keypoint_spacing, kPositive, "[m]");
+  schema.add_angle("search_turn_deg", search.turn, {0.0, 180.0}, "How far starts are turned");
+}
+
 }  // namespace
 
 void bind(Schema& schema, PipelineOptions& options) {
   schema.add_choice<PipelineType>(
       "pipeline",
       options.type,
-      {{"fast_lio", PipelineType::kFastLio},
+      {{"auto", PipelineType::kAutomatic},
+       {"fast_lio", PipelineType::kFastLio},
        {"ct_lio", PipelineType::kCtLio},
        {"ct_lio_continuous", PipelineType::kCtLioContinuous},
        {"lidar_only", PipelineType::kLidarOnly}},
@@ -156,6 +179,7 @@ void bind(Schema& schema, PipelineOptions& options) {
   bind_matching(schema.section("matching", "Keypoints, and when to believe a frame"), options);
   bind_filter(schema.section("fast_lio", "Iterated Kalman filter"), options);
   bind_optimization(schema.section("ct_lio", "Scan-to-map optimisation"), options);
+  bind_lidar_only(schema.section("lidar_only", "Odometry without an IMU"), options.lidar_only);
 }
 
 }  // namespace nvm::lio
