@@ -13,7 +13,7 @@ namespace nvm::io {
 namespace {
 
 constexpr char kRos2Advice[] =
-    "is a ROS 2 bag: convert it first with 'scripts/convert_ros2_bag.py BAG FOLDER'";
+    "is a ROS 2 bag: convert it first with 'scripts/convert_bag.py BAG FOLDER'";
 
 }  // namespace
 
