@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "adapters/common/host_options.hpp"
+#include "adapters/common/point_fields.hpp"
+#include "adapters/common/wide_search.hpp"
+#include "nvm/core/point_access.hpp"
+#include "nvm/map/view_direction.hpp"
+#include "nvm/map/voxel_map.hpp"
+
+namespace nvm::adapters {
+
+/// The part that all adapters share: a VoxelMap that takes a host's own points, finds their normals
+/// by a NormalPolicy, and needs no configuration to be constructed.
+///
+/// Costs nothing until the first insertion, so hosts may keep it in a global variable. Const
+/// members may run from many threads at once, every other member needs the map for itself.
+class HostMap {
+ public:
+  HostMap() = default;
+  explicit HostMap(const HostOptions& options) : options_(options) {}
+
+  /// What the map has been, or will be, made with.
+  const HostOptions& options() const noexcept { return options_; }
+  /// Drops the map; the next insertion makes one with these options. Throws std::invalid_argument
+  /// when they are out of range.
+  void configure(const HostOptions& options) {
+    options.map.validate();
+    options_ = options;
+    map_.reset();
+  }
+  /// Where the sensor is [m], map frame, from now on. Not finite, as at the start: unknown.
+  void set_view_point(const Eigen::Vector3d& p_map_sensor) noexcept { view_point_ = p_map_sensor; }
+
+  /// Inserts points that are in the map frame. Throws std::invalid_argument when the options are
+  /// out of range, std::bad_alloc when there is no memory for them.
+  template <class Points>
+  InsertStats insert(const Points& points) {
+    return insert(points, HostNormals<Points>{*this, points});
+  }
+
+  /// The same with normals of their own, a range as long as `points`. Those that are not unit
+  /// vectors go in without a normal, unless policy `missing` says to drop.
+  template <class Points, class Normals>
+  InsertStats insert(const Points& points, const Normals& normals) {
+    VoxelMap& map = make_map();
+    if (options_.normals.insert == NormalSource::kNone) {
+      return evict(map.insert_unsided(points, T_grid_map()));
+    }
+    InsertStats stats = map.insert(points, normals, T_grid_map());
+    if (stats.no_normal > 0 && options_.normals.missing != MissingNormal::kDrop) {
+      insert_missing(points, normals, stats);
+    }
+    return evict(stats);
+  }
+
+  /// The neighbours of a host's point, by NormalPolicy::query. Otherwise as VoxelMap::nearest, with
+  /// HostOptions::reach.
+  template <class Point>
+  std::size_t nearest(
+      const Point& point, const NearestSearch& search, Neighbor* out) const noexcept {
+    return nearest(nvm::position(point), query_normal(point), search, out);
+  }
+
+  /// The same with a `normal` in the map frame; one that is not a unit vector stands for none, and
+  /// sees both sides unless policy `missing` says to drop.
+  std::size_t nearest(
+      const Eigen::Vector3d& point,
+      const Eigen::Vector3f& normal,
+      const NearestSearch& search,
+      Neighbor* out) const noexcept {
+    if (!map_) {
+      return 0;
+    }
+    const bool gated = is_unit_normal(normal);
+    if (!gated && options_.normals.query != NormalSource::kNone &&
+        options_.normals.missing == MissingNormal::kDrop) {
+      return 0;
+    }
+    const Eigen::Vector3d p_grid = point.array() + options_.grid_offset;
+    std::size_t count = gated ? map_->nearest(p_grid, normal, search, out, context())
+                              : map_->nearest(p_grid, search, out, context());
+    if (options_.reach > 0.0 && !is_complete(p_grid, search, out, count)) {
+      count = search_wide(p_grid, gated ? normal : Eigen::Vector3f::Zero(), search, out);
+    }
+    if (options_.grid_offset != 0.0) {
+      std::for_each(out, out + count, [this](Neighbor& n) { n.position = from_grid(n.position); });
+    }
+    return count;
+  }
+
+  /// The normal that a query with this point goes by; zero when it has none.
+  template <class Point>
+  Eigen::Vector3f query_normal(const Point& point) const noexcept {
+    return normal_of(point, options_.normals.query);
+  }
+  /// The normal that this point is inserted with; zero when it has none.
+  template <class Point>
+  Eigen::Vector3f insert_normal(const Point& point) const noexcept {
+    return normal_of(point, options_.normals.insert);
+  }
+
+  /// The map, in its grid's frame (shifted by grid_offset), or null before the first insertion.
+  VoxelMap* map() noexcept { return map_ ? &*map_ : nullptr; }
+  const VoxelMap* map() const noexcept { return map_ ? &*map_ : nullptr; }
+  Eigen::Vector3d from_grid(const Eigen::Vector3d& p_grid) const noexcept {
+    return p_grid.array() - options_.grid_offset;
+  }
+  Eigen::Vector3d to_grid(const Eigen::Vector3d& p_map) const noexcept {
+    return p_map.array() + options_.grid_offset;
+  }
+
+  std::size_t size() const noexcept { return map_ ? map_->size() : 0; }
+  std::size_t voxel_count() const noexcept { return map_ ? map_->voxel_count() : 0; }
+  void clear() noexcept {
+    if (map_) {
+      map_->clear();
+    }
+  }
+
+  /// Calls visit(position [m, map frame], normal) for every stored point.
+  template <class Visitor>
+  void for_each_point(Visitor&& visit) const {
+    if (map_) {
+      map_->for_each_point(
+          [&](const MapPoint& point) { visit(from_grid(point.position), point.normal); });
+    }
+  }
+
+ private:
+  /// The normals of a host's points, computed when read.
+  template <class Points>
+  struct HostNormals {
+    const HostMap& host;
+    const Points& points;
+    std::size_t size() const { return static_cast<std::size_t>(points.size()); }
+    Eigen::Vector3f operator[](std::size_t i) const { return host.insert_normal(points[i]); }
+  };
+
+  template <class Point>
+  Eigen::Vector3f normal_of(const Point& point, NormalSource source) const noexcept {
+    if (source == NormalSource::kNone) {
+      return Eigen::Vector3f::Zero();
+    }
+    if (source == NormalSource::kPoint) {
+      const Eigen::Vector3f normal = normal_field(point);
+      if (is_unit_normal(normal) || options_.normals.missing != MissingNormal::kViewDirection) {
+        return normal;
+      }
+    }
+    return view_direction(point, view_point_);
+  }
+
+  VoxelMap& make_map() {
+    if (!map_) {
+      MapOptions options = options_.map;
+      options.eviction = Eviction::kLeastRecentlyUsed;  // by radius: see evict()
+      map_.emplace(options);
+    }
+    return *map_;
+  }
+
+  Pose T_grid_map() const {
+    Pose T = Pose::Identity();
+    T.translation().setConstant(options_.grid_offset);
+    return T;
+  }
+
+  template <class Points, class Normals>
+  void insert_missing(const Points& points, const Normals& normals, InsertStats& stats) {
+    std::vector<Eigen::Vector3d> missing;
+    missing.reserve(stats.no_normal);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(points.size()); ++i) {
+      if (!is_unit_normal(nvm::position(normals[i]).template cast<float>())) {
+        missing.push_back(nvm::position(points[i]));
+      }
+    }
+    const InsertStats added = map_->insert_unsided(missing, T_grid_map());
+    stats.no_normal = 0;
+    stats.stored += added.stored;
+    stats.too_close += added.too_close;
+    stats.surface_full += added.surface_full;
+    stats.map_full += added.map_full;
+    stats.new_voxels += added.new_voxels;
+    stats.evicted_voxels += added.evicted_voxels;
+    stats.evicted_points += added.evicted_points;
+  }
+
+  InsertStats evict(InsertStats stats) {
+    if (options_.map.eviction == Eviction::kRadius && view_point_.allFinite()) {
+      const std::size_t voxels = map_->voxel_count();
+      stats.evicted_points +=
+          map_->erase_voxels_beyond(to_grid(view_point_), options_.map.eviction_radius);
+      stats.evicted_voxels += voxels - map_->voxel_count();
+    }
+    return stats;
+  }
+
+  bool is_complete(
+      const Eigen::Vector3d& p_grid,
+      const NearestSearch& search,
+      const Neighbor* out,
+      std::size_t count) const noexcept {
+    const double covered = covered_distance(p_grid, options_.map.voxel_size);
+    return search.max_distance <= covered ||
+           (count == search.count && out[count - 1].sq_distance <= covered * covered);
+  }
+
+  std::size_t search_wide(
+      const Eigen::Vector3d& p_grid,
+      const Eigen::Vector3f& normal,
+      const NearestSearch& search,
+      Neighbor* out) const noexcept {
+    const auto min_dot = static_cast<float>(std::cos(options_.map.max_point_angle));
+    const bool gated = !normal.isZero();
+    NearestSearch wide = search;
+    wide.max_distance = std::min(search.max_distance, options_.reach);
+    return nearest_wide(
+        *map_,
+        p_grid,
+        wide,
+        [&](const Neighbor& n) { return !gated || map_->normal(n.id).dot(normal) > min_dot; },
+        out);
+  }
+
+  static VoxelMap::QueryContext& context() noexcept {
+    thread_local VoxelMap::QueryContext context;
+    return context;
+  }
+
+  HostOptions options_;
+  Eigen::Vector3d view_point_ = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  std::optional<VoxelMap> map_;
+};
+
+}  // namespace nvm::adapters

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <string>
+
+#include "nvm/map/map_options.hpp"
+
+namespace nvm::adapters {
+
+/// Where an adapter takes the normal of a host's point from.
+enum class NormalSource {
+  kNone,           ///< nowhere: points have no sides and queries see both
+  kViewDirection,  ///< the direction to the sensor, which needs a view point
+  kPoint,          ///< the point's own normal fields
+};
+
+/// What becomes of a point whose normal source does not give a unit vector.
+enum class MissingNormal {
+  kDrop,           ///< it is not inserted, and as a query finds nothing (the paper)
+  kUngated,        ///< as with NormalSource::kNone
+  kViewDirection,  ///< the direction to the sensor; without a view point as kUngated
+};
+
+/// How an adapter uses normals.
+struct NormalPolicy {
+  NormalSource insert = NormalSource::kPoint;
+  NormalSource query = NormalSource::kPoint;
+  MissingNormal missing = MissingNormal::kViewDirection;
+};
+
+/// Configuration of the map behind an adapter.
+struct HostOptions {
+  /// Eviction::kRadius is measured from the view point.
+  MapOptions map;
+  NormalPolicy normals;
+  /// Queries that find too few neighbours in the 27 voxels around them look on, to this distance
+  /// [m]; 0: they do not. Beyond the 27 voxels only the normals of points are compared, not those
+  /// of surfaces.
+  double reach = 0.0;
+  /// Moves the grid of voxels against the map frame [m]: half a voxel for hosts that round where
+  /// nvm takes the floor.
+  double grid_offset = 0.0;
+};
+
+/// A map without sides that keeps what it is given, as hosts' own maps do: for comparisons that
+/// isolate what normals change. Surfaces hold the most points that nvm allows, 120.
+inline HostOptions transparent_options(double voxel_size) {
+  HostOptions options;
+  options.map.voxel_size = voxel_size;
+  options.map.max_surfaces = 1;
+  options.map.points_per_surface = MapOptions::kMaxPointsPerSurface;
+  options.map.min_point_distance = 0.0;
+  options.normals = {NormalSource::kNone, NormalSource::kNone, MissingNormal::kUngated};
+  return options;
+}
+
+/// The smallest voxel [m] in which a host that keeps one point per `spacing` [m] finds `neighbors`
+/// neighbours on a wall. The 27 voxels around a query hold 9 (d / spacing)^2 points of a wall;
+/// measured, 5 neighbours need d = spacing and 20 need d = 2 spacing, which is 1.8 times as many.
+inline double smallest_voxel(double spacing, int neighbors) {
+  return spacing * std::sqrt(0.2 * neighbors);
+}
+
+/// One line for the host's log when voxels are too small for the host's `spacing`; else empty. Such
+/// a map answers with too few neighbours, which hosts report as "no effective points".
+inline std::string density_warning(double voxel_size, double spacing, int neighbors) {
+  const double smallest = smallest_voxel(spacing, neighbors);
+  if (voxel_size >= smallest * (1.0 - 1e-6)) {
+    return {};
+  }
+  std::ostringstream text;
+  text << "nvm: voxel_size = " << voxel_size << " m is too small for points " << spacing
+       << " m apart: " << neighbors << " neighbours need at least " << smallest << " m";
+  return text.str();
+}
+
+}  // namespace nvm::adapters

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+
+#include "adapters/common/point_fields.hpp"
+#include "nvm/normal/normal_estimator.hpp"
+
+namespace nvm::adapters {
+
+/// Writes normals into the points of a host, which carry them through its own code to the map. Keep
+/// one per sensor.
+class ScanNormals {
+ public:
+  /// Throws std::invalid_argument when the options are out of range.
+  explicit ScanNormals(const NormalOptions& options = {}) : estimator_(options) {}
+
+  /// Sets normal_x, normal_y, normal_z of each of `points` from its neighbours in `full_scan`, from
+  /// which a host thins `points`. Both in the frame of the sensor, which is at `p_sensor` [m]. The
+  /// normals look at the sensor; they are zero where the scan has no plane. Thin first: a filter
+  /// that averages points averages the normals of a wall's two faces to nothing.
+  template <class Points, class FullScan>
+  NormalStats write(
+      Points& points,
+      const FullScan& full_scan,
+      const Eigen::Vector3d& p_sensor = Eigen::Vector3d::Zero()) {
+    const NormalResult& result = estimator_.estimate_at(points, full_scan, p_sensor);
+    for (std::size_t i = 0; i < result.normals.size(); ++i) {
+      set_normal(points[i], result.normals[i]);
+    }
+    return result.stats;
+  }
+
+ private:
+  NormalEstimator estimator_;
+};
+
+/// Gives `to` the normal of `from`, rotated by `R_to_from`: what hosts forget when they transform
+/// a point. A missing (zero) normal stays missing.
+template <class From, class To>
+void rotate_normal(const Eigen::Matrix3d& R_to_from, const From& from, To& to) {
+  const Eigen::Vector3d rotated = R_to_from * normal_field(from).template cast<double>();
+  set_normal(to, rotated.cast<float>());
+}
+
+}  // namespace nvm::adapters
