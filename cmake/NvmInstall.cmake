@@ -4,8 +4,10 @@ include(CMakePackageConfigHelpers)
 
 set(nvm_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/nvm)
 set(nvm_generated_dir ${PROJECT_BINARY_DIR}/package)
-get_property(nvm_component_list GLOBAL PROPERTY NVM_COMPONENTS)
-list(JOIN nvm_component_list " " nvm_components)
+get_property(nvm_compiled GLOBAL PROPERTY NVM_COMPONENTS)
+get_property(nvm_adapters GLOBAL PROPERTY NVM_ADAPTERS)
+list(JOIN nvm_compiled " " nvm_component_names)
+list(JOIN nvm_adapters " " nvm_adapter_names)
 
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/nvm DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(TARGETS nvm EXPORT nvm-targets)
@@ -14,8 +16,13 @@ install(EXPORT nvm-targets NAMESPACE nvm:: DESTINATION ${nvm_package_dir})
 # nvm_component_needs(NAME components_variable packages_variable): what a component links to,
 # read from its target, so that the package never names a dependency that the build does not.
 function(nvm_component_needs name components_variable packages_variable)
-  get_target_property(libraries nvm_${name} LINK_LIBRARIES)
-  list(FILTER libraries EXCLUDE REGEX "^(nvm::nvm|\\$<BUILD_INTERFACE:.*|/.*|-.*)$")
+  set(libraries "")
+  foreach(property LINK_LIBRARIES INTERFACE_LINK_LIBRARIES)
+    get_target_property(values nvm_${name} ${property})
+    list(APPEND libraries ${values})
+  endforeach()
+  list(FILTER libraries EXCLUDE REGEX "(^nvm::nvm|NOTFOUND|>)$|^[-/$]")
+  list(REMOVE_DUPLICATES libraries)
   set(components ${libraries})
   list(FILTER components INCLUDE REGEX "^nvm::")
   list(TRANSFORM components REPLACE "^nvm::" "")
@@ -27,18 +34,31 @@ function(nvm_component_needs name components_variable packages_variable)
   set(${packages_variable} ${packages} PARENT_SCOPE)
 endfunction()
 
-foreach(component IN LISTS nvm_component_list)
+# nvm_install_component(NAME): the target nvm_NAME as what find_package(nvm COMPONENTS NAME) gives.
+function(nvm_install_component component)
   nvm_component_needs(${component} needed_components needed_packages)
   configure_file(${PROJECT_SOURCE_DIR}/cmake/nvm-component.cmake.in
                  ${nvm_generated_dir}/nvm-${component}.cmake @ONLY)
   install(FILES ${nvm_generated_dir}/nvm-${component}.cmake DESTINATION ${nvm_package_dir})
   install(TARGETS nvm_${component} EXPORT nvm-${component}-targets)
   install(EXPORT nvm-${component}-targets NAMESPACE nvm:: DESTINATION ${nvm_package_dir})
+endfunction()
+
+set(nvm_component_headers ${CMAKE_INSTALL_INCLUDEDIR}/nvm/components)
+foreach(component IN LISTS nvm_compiled)
+  nvm_install_component(${component})
   install(
     DIRECTORY ${PROJECT_SOURCE_DIR}/src/${component}
-    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/nvm/components
+    DESTINATION ${nvm_component_headers}
     FILES_MATCHING PATTERN "*.hpp")
 endforeach()
+foreach(adapter IN LISTS nvm_adapters)
+  nvm_install_component(${adapter})
+endforeach()
+install(
+  DIRECTORY ${PROJECT_SOURCE_DIR}/adapters
+  DESTINATION ${nvm_component_headers}
+  FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h")
 
 configure_package_config_file(
   ${PROJECT_SOURCE_DIR}/cmake/nvm-config.cmake.in ${nvm_generated_dir}/nvm-config.cmake
