@@ -5,12 +5,14 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "config/schema.hpp"
 #include "sim/scene_file.hpp"
+#include "sim/sensor_model.hpp"
 #include "sim/simulation.hpp"
 
 namespace nvm::app {
@@ -19,12 +21,14 @@ namespace {
 struct SimulateArguments {
   std::string scene;
   std::string folder;
+  std::string sensor = "mid360";
+  std::uint64_t seed = 1;
+  double duration = 0.0;
   std::vector<std::string> overrides;
   std::string options_file;
   bool lists_scenes = false;
   bool lists_sensors = false;
   bool prints_options = false;
-  sim::SimulationOptions options;
 };
 
 void list_scenes() {
@@ -39,12 +43,11 @@ void list_sensors() {
   }
 }
 
-void simulate(SimulateArguments& arguments) {
+void simulate(const SimulateArguments& arguments, const sim::SimulationOptions& options) {
   if (arguments.scene.empty() || arguments.folder.empty()) {
     throw CLI::RequiredError("SCENE and --out");
   }
-  const auto summary =
-      sim::simulate(sim::load_scene(arguments.scene), arguments.options, arguments.folder);
+  const auto summary = sim::simulate(sim::load_scene(arguments.scene), options, arguments.folder);
   fmt::print(
       "{}: {} scans, {} points, {} IMU samples, {:.1f} s, {:.1f} m\n",
       arguments.folder,
@@ -55,9 +58,12 @@ void simulate(SimulateArguments& arguments) {
       summary.path_length);
 }
 
-void run(SimulateArguments& arguments) {
+void run(const SimulateArguments& arguments) {
+  sim::SimulationOptions options = sim::options_for(arguments.sensor);
+  options.seed = arguments.seed;
+  options.duration = arguments.duration;
   config::Schema schema;
-  sim::bind(schema, arguments.options);
+  sim::bind(schema, options);
   if (!arguments.options_file.empty()) {
     schema.read_file(arguments.options_file);
   }
@@ -71,7 +77,7 @@ void run(SimulateArguments& arguments) {
   } else if (arguments.prints_options) {
     fmt::print("{}", schema.to_yaml());
   } else {
-    simulate(arguments);
+    simulate(arguments, options);
   }
 }
 
@@ -82,17 +88,18 @@ void add_simulate_command(CLI::App& app) {
   const auto arguments = std::make_shared<SimulateArguments>();
   command->add_option("SCENE", arguments->scene, "Name of a shipped scene, or a scene file");
   command->add_option("--out", arguments->folder, "Folder of the sequence; must not exist");
-  command->add_option("--sensor", arguments->options.sensor, "LiDAR, see --list-sensors")
+  command->add_option("--sensor", arguments->sensor, "LiDAR, see --list-sensors")
       ->capture_default_str();
-  command->add_option("--seed", arguments->options.seed, "Of all noise and of the walk's details")
+  command->add_option("--seed", arguments->seed, "Of all noise and of the walk's details")
       ->capture_default_str();
-  command->add_option("--duration", arguments->options.duration, "[s]; 0: to the end of the route")
+  command->add_option("--duration", arguments->duration, "[s]; 0: to the end of the route")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command->add_option("--config", arguments->options_file, "YAML file of options")
       ->check(CLI::ExistingFile);
   command->add_option("--set", arguments->overrides, "An option, as in lidar.range_noise=0.02")
-      ->type_name("KEY=VALUE");
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
   command->add_flag("--list-scenes", arguments->lists_scenes, "Print the shipped scenes");
   command->add_flag("--list-sensors", arguments->lists_sensors, "Print the sensors");
   command->add_flag("--print-options", arguments->prints_options, "Print all options as YAML");

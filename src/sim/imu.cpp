@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "sim/angles.hpp"
+
 namespace nvm::sim {
 namespace {
 
@@ -14,7 +16,7 @@ class Triad {
       : noise_(noise), rate_(rate), random_(seed, stream, 0) {
     bias_ = noise.initial_bias * gaussian_vector();
     const Eigen::Vector3d scale = Eigen::Vector3d::Ones() + noise.scale_error * gaussian_vector();
-    const double misalignment = noise.misalignment_deg * M_PI / 180.0;
+    const double misalignment = rad(noise.misalignment_deg);
     distortion_ = scale.asDiagonal() * so3_exp(misalignment * gaussian_vector());
   }
 

@@ -5,36 +5,24 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/angles.hpp"
+
 namespace nvm::sim {
 namespace {
 
 constexpr double kFullIntensity = 255.0;  ///< of a white surface seen head-on
 constexpr double kMinCosine = 0.1;        ///< of the incidence, where its noise stops growing
 
-Pose extrinsic(const SensorModel& sensor) {
-  Pose T_imu_lidar = Pose::Identity();
-  T_imu_lidar.linear() = so3_exp({0.0, 0.0, sensor.yaw_imu_lidar_deg * M_PI / 180.0});
-  T_imu_lidar.translation() = sensor.p_imu_lidar;
-  return T_imu_lidar;
-}
-
 }  // namespace
 
 Lidar::Lidar(
-    const SensorModel& sensor,
-    const LidarOptions& options,
-    const RayCaster& rays,
-    const Motion& motion,
-    std::uint64_t seed)
+    const SensorModel& sensor, const LidarOptions& options, const World& world, std::uint64_t seed)
     : sensor_(sensor),
       options_(options),
-      rays_(rays),
-      motion_(motion),
+      world_(world),
       seed_(seed),
-      T_imu_lidar_(extrinsic(sensor)) {
-  options_.min_range = options.min_range > 0.0 ? options.min_range : sensor.min_range;
-  options_.max_range = options.max_range > 0.0 ? options.max_range : sensor.max_range;
-}
+      T_imu_lidar_(
+          make_pose(euler_rotation_deg(options.rotation_imu_lidar_deg), options.p_imu_lidar)) {}
 
 SimulatedScan Lidar::scan(std::size_t index) const {
   const std::size_t shots = sensor_.shots_per_scan(options_.scan_rate);
@@ -47,7 +35,7 @@ SimulatedScan Lidar::scan(std::size_t index) const {
     const Firing firing = sensor_.firing(index, shot, options_.scan_rate);
     const auto dt = static_cast<float>(firing.dt);
     const Pose T_world_lidar =
-        motion_.pose(result.scan.t_begin + static_cast<double>(dt)) * T_imu_lidar_;
+        world_.motion.pose(result.scan.t_begin + static_cast<double>(dt)) * T_imu_lidar_;
     Random random(seed_, Stream::kLidar, index * shots + shot);
     const auto hit =
         shoot(T_world_lidar.translation(), T_world_lidar.linear() * firing.direction, random);
@@ -70,14 +58,15 @@ std::optional<Lidar::Return> Lidar::shoot(
   const bool is_outlier = random.uniform() < options_.outliers;
   const bool may_mix = random.uniform() < options_.mixed_pixels;
   const double share = random.uniform();
-  const auto hit = rays_.cast(origin, direction, options_.max_range + 1.0, pass);
+  const auto hit = world_.rays.cast(origin, direction, options_.max_range + 1.0, pass);
   if (is_lost || !hit) {
     return std::nullopt;
   }
   const double cosine = std::abs(hit->normal.dot(direction));
   Return result;
   result.range = measured_range(*hit, cosine, random);
-  result.intensity = kFullIntensity * rays_.material(hit->surface).reflectivity * cosine;
+  result.intensity =
+      kFullIntensity * object_material(world_.scene, hit->surface.object).reflectivity * cosine;
   result.truth.surface = hit->surface;
   if (may_mix) {
     if (const auto mixed = mixed_range(*hit, origin, direction, random)) {
@@ -113,12 +102,12 @@ std::optional<double> Lidar::mixed_range(
     const Eigen::Vector3d& direction,
     Random& random) const {
   constexpr double kMinGap = 0.1;  // [m]
-  const double rim = 0.5 * sensor_.divergence_deg * M_PI / 180.0;
+  const double rim = 0.5 * rad(options_.divergence_deg);
   const double angle = random.uniform(0.0, 2.0 * M_PI);
   const Eigen::Vector3d side = direction.unitOrthogonal();
   const Eigen::Vector3d offset = std::cos(angle) * side + std::sin(angle) * direction.cross(side);
   const auto other =
-      rays_.cast(origin, (direction + rim * offset).normalized(), options_.max_range + 1.0);
+      world_.rays.cast(origin, (direction + rim * offset).normalized(), options_.max_range + 1.0);
   if (!other || std::abs(other->range - hit.range) < kMinGap) {
     return std::nullopt;
   }

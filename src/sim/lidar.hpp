@@ -8,25 +8,13 @@
 #include <vector>
 
 #include "lio/sensor_data.hpp"
+#include "sim/lidar_options.hpp"
 #include "sim/motion.hpp"
 #include "sim/random.hpp"
 #include "sim/ray_caster.hpp"
 #include "sim/sensor_model.hpp"
 
 namespace nvm::sim {
-
-/// How a LiDAR errs. Probabilities are per shot.
-struct LidarOptions {
-  double scan_rate = 10.0;               ///< [Hz]
-  double range_noise = 0.01;             ///< standard deviation [m]
-  double range_noise_per_metre = 0.0;    ///< more of it at long range
-  double range_noise_per_tangent = 0.0;  ///< more of it at slanting incidence: times tan(angle) [m]
-  double mixed_pixels = 0.0;  ///< that a beam which straddles an edge returns a range in between
-  double outliers = 0.0;      ///< that the range is any up to the true one
-  double dropouts = 0.0;      ///< that nothing returns
-  double min_range = 0.0;     ///< [m]; 0: the sensor's
-  double max_range = 0.0;     ///< [m]; 0: the sensor's
-};
 
 /// Where a return really comes from.
 enum class Origin : std::uint8_t { kSurface, kMixedPixel, kOutlier };
@@ -42,15 +30,21 @@ struct SimulatedScan {
   std::vector<ReturnTruth> truth;
 };
 
+/// What a LiDAR moves through.
+struct World {
+  const Scene& scene;
+  const RayCaster& rays;  ///< into that scene
+  const Motion& motion;
+};
+
 /// A LiDAR that is carried along a motion through a scene. Safe to use from many threads at once.
 class Lidar {
  public:
-  /// References must outlive the LiDAR.
+  /// The references in `world` and the sensor must outlive the LiDAR.
   Lidar(
       const SensorModel& sensor,
       const LidarOptions& options,
-      const RayCaster& rays,
-      const Motion& motion,
+      const World& world,
       std::uint64_t seed);
 
   /// Scan `index`, from time index / scan_rate; each shot is cast from the true pose at its time.
@@ -77,8 +71,7 @@ class Lidar {
 
   const SensorModel& sensor_;
   LidarOptions options_;
-  const RayCaster& rays_;
-  const Motion& motion_;
+  World world_;
   std::uint64_t seed_;
   Pose T_imu_lidar_;
 };

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "sim/angles.hpp"
 #include "sim/jet.hpp"
 #include "sim/random.hpp"
 
@@ -12,20 +13,6 @@ namespace {
 
 constexpr double kPathSpacing = 0.4;     ///< of knots [s]: rounds corners within about 0.5 m
 constexpr double kHeadingSpacing = 0.8;  ///< of knots [s]: a right angle takes about 1.5 s
-
-constexpr double rad(double degrees) { return degrees * M_PI / 180.0; }
-
-/// Rz(yaw) Ry(pitch) Rx(roll).
-Eigen::Matrix3d rotation(double roll, double pitch, double yaw) {
-  const double cr = std::cos(roll), sr = std::sin(roll);
-  const double cp = std::cos(pitch), sp = std::sin(pitch);
-  const double cy = std::cos(yaw), sy = std::sin(yaw);
-  Eigen::Matrix3d R;
-  R << cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr,  //
-      sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr,   //
-      -sp, cp * sr, cp * cr;
-  return R;
-}
 
 /// A wave of a typical walker: the seed varies its amplitude, and its phase is free.
 struct TypicalWave {
@@ -121,7 +108,7 @@ auto Motion::coordinates(const Scalar& t) const -> std::array<Scalar, kDegreesOf
 Pose Motion::pose(double time) const {
   const auto [x, y, z, roll, pitch, yaw] = coordinates(time);
   Pose pose = Pose::Identity();
-  pose.linear() = rotation(roll, pitch, yaw);
+  pose.linear() = euler_rotation(roll, pitch, yaw);
   pose.translation() = Eigen::Vector3d(x, y, z);
   return pose;
 }
@@ -129,7 +116,7 @@ Pose Motion::pose(double time) const {
 Kinematics Motion::kinematics(double time) const {
   const auto [x, y, z, roll, pitch, yaw] = coordinates(time_jet(time));
   Kinematics result;
-  result.T_world_imu.linear() = rotation(roll.value, pitch.value, yaw.value);
+  result.T_world_imu.linear() = euler_rotation(roll.value, pitch.value, yaw.value);
   result.T_world_imu.translation() = Eigen::Vector3d(x.value, y.value, z.value);
   result.velocity = Eigen::Vector3d(x.first, y.first, z.first);
   result.acceleration = Eigen::Vector3d(x.second, y.second, z.second);

@@ -3,20 +3,15 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "sim/scene.hpp"
 
 namespace nvm::sim {
 
-/// What a ray has hit. Objects are counted through boxes, then cylinders, then meshes; the face is
-/// that of the box (face_index), 0 for a cylinder's side and 1 for its ends, or the triangle.
-struct SurfaceId {
-  std::uint32_t object = 0;
-  std::uint32_t face = 0;
-};
+class EmbreeScene;
 
 struct RayHit {
   double range = 0.0;      ///< [m]
@@ -30,7 +25,6 @@ class RayCaster {
  public:
   /// `scene` must outlive the caster.
   explicit RayCaster(const Scene& scene);
-  RayCaster(RayCaster&&) noexcept;
   ~RayCaster();
 
   /// The first surface that the ray from `origin` [m, world frame] along the unit vector
@@ -42,13 +36,19 @@ class RayCaster {
       double max_range,
       double pass = 1.0) const;
 
-  const Material& material(const SurfaceId& surface) const;
-
  private:
-  struct Embree;
+  /// The plane {p : normal . p = offset}.
+  struct Plane {
+    Eigen::Vector3d normal;
+    double offset = 0.0;
+  };
+
+  const Plane& plane_of(const SurfaceId& surface) const;
 
   const Scene& scene_;
-  std::unique_ptr<Embree> embree_;
+  std::unique_ptr<EmbreeScene> embree_;
+  std::vector<Plane> box_planes_;                ///< six per box
+  std::vector<std::vector<Plane>> mesh_planes_;  ///< one per triangle
 };
 
 }  // namespace nvm::sim

@@ -3,6 +3,22 @@
 #include "sim/scene.hpp"
 
 namespace nvm::sim {
+namespace {
+
+/// `function(box, cylinder or mesh)` of the object with that number.
+template <class Function>
+decltype(auto) with_object(const Scene& scene, std::size_t object, const Function& function) {
+  const std::size_t boxes = scene.boxes.size();
+  if (object < boxes) {
+    return function(scene.boxes[object]);
+  }
+  if (const Cylinder* cylinder = find_cylinder(scene, object)) {
+    return function(*cylinder);
+  }
+  return function(scene.meshes[object - boxes - scene.cylinders.size()]);
+}
+
+}  // namespace
 
 double thickness(const Scene& scene, const WallPiece& piece) {
   return 2.0 * scene.boxes[piece.box].half_size[piece.axis];
@@ -23,15 +39,19 @@ Face box_face(const Box& box, Eigen::Index axis, int side) {
   return face;
 }
 
+const Cylinder* find_cylinder(const Scene& scene, std::size_t object) {
+  const std::size_t index = object - scene.boxes.size();  // of a box: wraps to a huge number
+  return index < scene.cylinders.size() ? &scene.cylinders[index] : nullptr;
+}
+
 const std::string& object_name(const Scene& scene, std::size_t object) {
-  if (object < scene.boxes.size()) {
-    return scene.boxes[object].name;
-  }
-  object -= scene.boxes.size();
-  if (object < scene.cylinders.size()) {
-    return scene.cylinders[object].name;
-  }
-  return scene.meshes[object - scene.cylinders.size()].name;
+  return with_object(
+      scene, object, [](const auto& solid) -> const std::string& { return solid.name; });
+}
+
+const Material& object_material(const Scene& scene, std::size_t object) {
+  return with_object(
+      scene, object, [](const auto& solid) -> const Material& { return solid.material; });
 }
 
 }  // namespace nvm::sim

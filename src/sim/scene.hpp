@@ -41,6 +41,13 @@ struct Mesh {
   Material material;
 };
 
+/// A surface of a scene. Objects are counted through boxes, then cylinders, then meshes; the face
+/// is that of the box (face_index), 0 for a cylinder's side and 1 for its ends, or the triangle.
+struct SurfaceId {
+  std::uint32_t object = 0;
+  std::uint32_t face = 0;
+};
+
 /// A rectangle on the plane {p : normal . p = offset}, facing along its unit normal.
 struct Face {
   Eigen::Vector3d normal;
@@ -85,8 +92,11 @@ double thickness(const Scene& scene, const WallPiece& piece);
 /// Face `side` (0: against the axis, 1: along it) of a box, seen from outside.
 Face box_face(const Box& box, Eigen::Index axis, int side);
 
-/// The name of an object, counted through boxes, then cylinders, then meshes.
+/// The cylinder with that SurfaceId::object; null when it is a box or a mesh.
+const Cylinder* find_cylinder(const Scene& scene, std::size_t object);
+
 const std::string& object_name(const Scene& scene, std::size_t object);
+const Material& object_material(const Scene& scene, std::size_t object);
 
 /// Index of that face among the six of its box: -x, +x, -y, +y, -z, +z.
 inline std::uint32_t face_index(Eigen::Index axis, int side) {

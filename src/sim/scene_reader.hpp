@@ -5,10 +5,10 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sim/fields.hpp"
-#include "sim/rectangle_cut.hpp"
 #include "sim/scene.hpp"
 
 namespace nvm::sim {
@@ -28,20 +28,18 @@ class SceneReader {
     Pose T_world_local = Pose::Identity();
     std::string prefix;
   };
-  using CopyFunction = std::function<void(const Place&)>;
 
-  void add_solids(Fields& body, const Place& place);
-  void add_box(Fields& item, const Place& place);
-  void add_hull(Fields& item, const Place& place);
-  void add_cylinder(Fields& item, const Place& place);
-  void add_mesh(Fields& item, const Place& place);
-  void add_wall(Fields& item, const Place& place);
-  void add_slab(Fields& item, const Place& place);
-  void add_object(Fields& item, const Place& place);
-  void add_pieces(const std::vector<Box>& pieces, Eigen::Index axis, bool is_listed);
+  void read_materials(Fields& document);
   void read_route(Fields route);
   Material material_of(Fields& item) const;
-  static void for_each_copy(Fields& item, const Place& place, const CopyFunction& add);
+
+  void add_solids(Fields& body, const Place& place);
+  void add_object(Fields& item, const Place& place);
+  void add_mesh(Fields& item, const Place& place);
+  void add_cylinder(Cylinder cylinder, Fields& item, const Place& place);
+  void add_box(Box box, Fields& item, const Place& place);
+  void add_plate(
+      const std::vector<Box>& pieces, Eigen::Index across, Fields& item, const Place& place);
 
   std::string folder_;
   std::map<std::string, Material> materials_;

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "sim/angles.hpp"
+
 namespace nvm::sim {
 namespace {
-
-constexpr double rad(double degrees) { return degrees * M_PI / 180.0; }
 
 Eigen::Vector3d spherical(double azimuth, double elevation) {
   return {
@@ -74,11 +74,11 @@ SensorModel ouster(const std::string& name, int lasers, double top_deg, double m
   sensor.description = "spinning, " + std::to_string(lasers) + " lasers, 1024 columns at 10 Hz";
   sensor.elevations_deg = even_elevations(lasers, top_deg);
   sensor.points_per_second = 10240.0 * lasers;
-  sensor.min_range = 0.3;
-  sensor.max_range = max_range;
-  sensor.divergence_deg = 0.2;
-  sensor.p_imu_lidar = {-0.0063, 0.0118, 0.0285};
-  sensor.yaw_imu_lidar_deg = 180.0;
+  sensor.defaults.min_range = 0.3;
+  sensor.defaults.max_range = max_range;
+  sensor.defaults.divergence_deg = 0.2;
+  sensor.defaults.p_imu_lidar = {-0.0063, 0.0118, 0.0285};
+  sensor.defaults.rotation_imu_lidar_deg = {0.0, 0.0, 180.0};
   return sensor;
 }
 
@@ -89,9 +89,9 @@ SensorModel mid360() {
   sensor.pattern = ScanPattern::kNodding;
   sensor.lines = 4;
   sensor.points_per_second = 200000.0;
-  sensor.max_range = 40.0;
-  sensor.divergence_deg = 0.2;
-  sensor.p_imu_lidar = {-0.011, -0.0233, 0.0441};
+  sensor.defaults.max_range = 40.0;
+  sensor.defaults.divergence_deg = 0.2;
+  sensor.defaults.p_imu_lidar = {-0.011, -0.0233, 0.0441};
   return sensor;
 }
 
@@ -102,10 +102,10 @@ SensorModel avia() {
   sensor.pattern = ScanPattern::kRosette;
   sensor.lines = 6;
   sensor.points_per_second = 240000.0;
-  sensor.min_range = 0.5;
-  sensor.max_range = 190.0;
-  sensor.divergence_deg = 0.16;
-  sensor.p_imu_lidar = {0.0417, 0.0233, -0.0284};
+  sensor.defaults.min_range = 0.5;
+  sensor.defaults.max_range = 190.0;
+  sensor.defaults.divergence_deg = 0.16;
+  sensor.defaults.p_imu_lidar = {0.0417, 0.0233, -0.0284};
   return sensor;
 }
 
@@ -119,9 +119,9 @@ SensorModel vlp16() {
   }
   sensor.laser_delay = 2.304e-6;
   sensor.points_per_second = 288000.0;
-  sensor.min_range = 0.5;
-  sensor.divergence_deg = 0.18;
-  sensor.p_imu_lidar = {0.02, -0.01, 0.09};
+  sensor.defaults.min_range = 0.5;
+  sensor.defaults.divergence_deg = 0.18;
+  sensor.defaults.p_imu_lidar = {0.02, -0.01, 0.09};
   return sensor;
 }
 

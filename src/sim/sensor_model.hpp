@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "nvm/geometry/pose.hpp"
+#include "sim/lidar_options.hpp"
 
 namespace nvm::sim {
 
@@ -35,11 +35,7 @@ struct SensorModel {
   double laser_delay = 0.0;            ///< spinning: between the lasers of one column [s]
   int lines = 0;                       ///< others: how many; they fire in turn
   double points_per_second = 0.0;
-  double min_range = 0.1;          ///< [m]
-  double max_range = 100.0;        ///< [m]
-  double divergence_deg = 0.1;     ///< full width of the beam
-  Eigen::Vector3d p_imu_lidar;     ///< where the LiDAR is in the IMU frame [m]
-  double yaw_imu_lidar_deg = 0.0;  ///< how it is turned there about z
+  LidarOptions defaults;  ///< its ranges, its beam and its place beside the IMU
 
   /// Shots in one scan of 1 / `scan_rate` seconds.
   std::size_t shots_per_scan(double scan_rate) const;

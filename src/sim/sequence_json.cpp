@@ -2,8 +2,12 @@
 // Copyright (c) 2026 The nvm authors
 #include "sim/sequence_json.hpp"
 
+#include <yaml-cpp/yaml.h>
+
 #include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
+
+#include "config/schema.hpp"
 
 namespace nvm::sim {
 namespace {
@@ -44,37 +48,30 @@ Json to_json(const Scene& scene, const WallPiece& piece, const SurfaceHits& hits
       {"faces", faces}};
 }
 
-Json to_json(const TriadNoise& noise) {
-  return {
-      {"noise_density", noise.noise_density},
-      {"bias_walk", noise.bias_walk},
-      {"initial_bias", noise.initial_bias},
-      {"scale_error", noise.scale_error},
-      {"misalignment_deg", noise.misalignment_deg}};
+/// The same tree in JSON; texts that spell numbers become numbers.
+Json to_json(const YAML::Node& yaml) {
+  if (yaml.IsMap()) {
+    Json object = Json::object();
+    for (const auto& member : yaml) {
+      object[member.first.Scalar()] = to_json(member.second);
+    }
+    return object;
+  }
+  if (yaml.IsSequence()) {
+    Json array = Json::array();
+    for (const YAML::Node& item : yaml) {
+      array.push_back(to_json(item));
+    }
+    return array;
+  }
+  const auto number = config::parse_number(yaml.Scalar());
+  return number ? Json(*number) : Json(yaml.Scalar());
 }
 
-Json to_json(const MotionOptions& motion) {
-  return {
-      {"speed", motion.speed},
-      {"still_time", motion.still_time},
-      {"height", motion.height},
-      {"tilt_deg", motion.tilt_deg},
-      {"gait", motion.gait},
-      {"wander", motion.wander},
-      {"waypoint_jitter", motion.waypoint_jitter}};
-}
-
-Json to_json(const LidarOptions& lidar) {
-  return {
-      {"scan_rate", lidar.scan_rate},
-      {"range_noise", lidar.range_noise},
-      {"range_noise_per_metre", lidar.range_noise_per_metre},
-      {"range_noise_per_tangent", lidar.range_noise_per_tangent},
-      {"mixed_pixels", lidar.mixed_pixels},
-      {"outliers", lidar.outliers},
-      {"dropouts", lidar.dropouts},
-      {"min_range", lidar.min_range},
-      {"max_range", lidar.max_range}};
+Json to_json(SimulationOptions options) {
+  config::Schema schema;
+  bind(schema, options);
+  return to_json(YAML::Load(schema.to_yaml()));
 }
 
 Json primitives_json(const Scene& scene) {
@@ -124,14 +121,7 @@ std::string meta_json(
       {"sensor", options.sensor},
       {"seed", options.seed},
       {"T_imu_lidar", to_json(facts.T_imu_lidar)},
-      {"options",
-       {{"motion", to_json(options.motion)},
-        {"lidar", to_json(options.lidar)},
-        {"imu",
-         {{"rate", options.imu.rate},
-          {"gravity", options.imu.gravity},
-          {"gyro", to_json(options.imu.gyro)},
-          {"accelerometer", to_json(options.imu.accelerometer)}}}}},
+      {"options", to_json(options)},
       {"counts",
        {{"scans", facts.scans}, {"points", facts.points}, {"imu_samples", facts.imu_samples}}},
       {"files",

@@ -69,7 +69,7 @@ SimulationSummary simulate(
   const Motion motion(scene.route, options.motion, options.seed, options.duration);
   const RayCaster rays(scene);
   check_clearance(scene, rays, motion, options.motion.clearance);
-  const Lidar lidar(sensor, options.lidar, rays, motion, options.seed);
+  const Lidar lidar(sensor, options.lidar, {scene, rays, motion}, options.seed);
 
   io::NvmSequenceWriter writer(folder);
   SequenceFacts facts;

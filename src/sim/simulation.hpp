@@ -17,15 +17,18 @@ class Schema;
 
 namespace nvm::sim {
 
-/// What to simulate in a scene.
+/// What to simulate in a scene. Start from `options_for`.
 struct SimulationOptions {
-  std::string sensor = "mid360";
+  std::string sensor;
   std::uint64_t seed = 1;  ///< of all noise, and of the details of the walk
   double duration = 0.0;   ///< [s]; 0: to the end of the route
   MotionOptions motion;
   LidarOptions lidar;
   ImuOptions imu;
 };
+
+/// The defaults for the sensor called `sensor`. Throws std::invalid_argument for an unknown one.
+SimulationOptions options_for(const std::string& sensor);
 
 /// Binds the keys "motion.*", "lidar.*" and "imu.*" to `options`.
 void bind(config::Schema& schema, SimulationOptions& options);
@@ -42,8 +45,9 @@ struct SimulationSummary {
 /// Simulates `scene` and writes a sequence folder, with its true trajectory and its scene. The same
 /// scene, options and seed give the same bytes, for any number of threads.
 ///
-/// Throws std::invalid_argument for an unknown sensor, and std::runtime_error when the route is
-/// blocked, `folder` exists or cannot be written; nothing is left of the folder then.
+/// Throws std::invalid_argument for an unknown sensor or a scene without a route, and
+/// std::runtime_error when the route is blocked, `folder` exists or cannot be written; nothing is
+/// left of the folder then.
 SimulationSummary simulate(
     const Scene& scene, const SimulationOptions& options, const std::string& folder);
 

@@ -31,6 +31,8 @@ void bind_lidar(Schema& schema, LidarOptions& lidar) {
   constexpr config::Range kProbability{0.0, 1.0};
   constexpr config::Range kLength{0.0, 1000.0};
   schema.add("scan_rate", lidar.scan_rate, {1.0, 100.0}, "[Hz]");
+  schema.add("min_range", lidar.min_range, kLength, "[m]");
+  schema.add("max_range", lidar.max_range, kLength, "[m]");
   schema.add("range_noise", lidar.range_noise, kLength, "Standard deviation [m]");
   schema.add(
       "range_noise_per_metre", lidar.range_noise_per_metre, {0.0, 1.0}, "More of it at long range");
@@ -47,8 +49,13 @@ void bind_lidar(Schema& schema, LidarOptions& lidar) {
   schema.add(
       "outliers", lidar.outliers, kProbability, "Probability of any range up to the true one");
   schema.add("dropouts", lidar.dropouts, kProbability, "Probability that nothing returns");
-  schema.add("min_range", lidar.min_range, kLength, "[m]; 0: the sensor's");
-  schema.add("max_range", lidar.max_range, kLength, "[m]; 0: the sensor's");
+  schema.add("divergence_deg", lidar.divergence_deg, {0.0, 10.0}, "Full width of the beam");
+  schema.add("p_imu_lidar", lidar.p_imu_lidar, {-10.0, 10.0}, "The LiDAR in the IMU frame [m]");
+  schema.add(
+      "rotation_imu_lidar_deg",
+      lidar.rotation_imu_lidar_deg,
+      {-360.0, 360.0},
+      "Roll, pitch and yaw of the LiDAR in the IMU frame");
 }
 
 void bind_triad(Schema& schema, TriadNoise& triad, const std::string& unit) {
@@ -70,6 +77,13 @@ void bind_triad(Schema& schema, TriadNoise& triad, const std::string& unit) {
 }
 
 }  // namespace
+
+SimulationOptions options_for(const std::string& sensor) {
+  SimulationOptions options;
+  options.sensor = sensor;
+  options.lidar = find_sensor(sensor).defaults;
+  return options;
+}
 
 void bind(Schema& schema, SimulationOptions& options) {
   bind_motion(schema.section("motion", "How the sensor is carried"), options.motion);
