@@ -12,8 +12,13 @@ namespace nvm::io {
 
 namespace {
 
-constexpr char kRos2Advice[] =
-    "is a ROS 2 bag: convert it first with 'scripts/convert_bag.py BAG FOLDER'";
+bool is_ros2_bag(const std::string& path) {
+  const std::string metadata = path + "/metadata.yaml";
+  const std::string extension = extension_of(path);
+  return extension == ".mcap" || extension == ".db3" ||
+         (std::filesystem::exists(metadata) &&
+          read_file(metadata).find("rosbag2_bagfile_information") != std::string::npos);
+}
 
 }  // namespace
 
@@ -22,18 +27,14 @@ std::unique_ptr<SequenceReader> open_sequence(
   if (!std::filesystem::exists(path)) {
     fail(path, "does not exist");
   }
-  if (std::filesystem::exists(path + "/metadata.yaml")) {
-    fail(path, kRos2Advice);
+  if (is_ros2_bag(path)) {
+    fail(path, "is a ROS 2 bag: convert it first with 'scripts/convert_bag.py BAG FOLDER'");
   }
   if (std::filesystem::is_directory(path)) {
     return is_nvm_sequence(path) ? open_nvm_sequence(path) : open_scan_folder(path, options);
   }
-  const std::string extension = extension_of(path);
-  if (extension == ".bag") {
+  if (extension_of(path) == ".bag") {
     return open_ros_bag(path, options);
-  }
-  if (extension == ".mcap" || extension == ".db3") {
-    fail(path, kRos2Advice);
   }
   fail(path, "is no sequence: expected a folder of scans, an nvm sequence folder or a .bag file");
 }

@@ -261,6 +261,16 @@ TEST_F(ScanFolder, OtherPathsAreNoSequence) {
       runtime_error_of([&] { open_sequence(write("a.txt", "")); }), HasSubstr("is no sequence"));
 }
 
+TEST_F(ScanFolder, Ros2BagsAreSentToTheConverter) {
+  write_scans({"a.bin"});
+  write("metadata.yaml", "author: somebody\n");
+  EXPECT_EQ(times().size(), 1U);
+  write("metadata.yaml", "rosbag2_bagfile_information:\n  version: 9\n");
+  EXPECT_THAT(error(), HasSubstr("convert_bag.py"));
+  EXPECT_THAT(
+      runtime_error_of([&] { open_sequence(write("a.mcap", "")); }), HasSubstr("convert_bag.py"));
+}
+
 TEST(RealScans, AllAreRead) {
   const std::string data = test::real_data();
   if (data.empty()) {
