@@ -22,6 +22,7 @@ namespace nvm::detail {
 
 // Passed by reference only: by value their ABI would depend on -march.
 using IntLanes = std::int32_t __attribute__((vector_size(4 * kLanes)));
+using ByteLanes = std::int8_t __attribute__((vector_size(kLanes)));
 using ShortLanes = std::int16_t __attribute__((vector_size(2 * kLanes)));
 using ShortPairs = std::int16_t __attribute__((vector_size(4 * kLanes)));
 
@@ -137,13 +138,18 @@ inline constexpr auto kSetBits = [] {
 inline std::uint32_t first_lanes(int count) { return count >= kLanes ? 0xffU : (1U << count) - 1U; }
 
 /// Bit i is set when the dot of normal i with `normal` exceeds `threshold`.
-inline std::uint32_t lanes_facing(
+[[gnu::always_inline]] inline std::uint32_t lanes_facing(
     const NormalChunk& chunk, const StoredNormal& normal, int threshold) {
-  std::uint32_t mask = 0;
-  for (int lane = 0; lane < kLanes; ++lane) {
-    mask |= static_cast<std::uint32_t>(dot(chunk.get(lane), normal) > threshold) << lane;
-  }
-  return mask;
+  ByteLanes x;
+  ByteLanes y;
+  ByteLanes z;
+  std::memcpy(&x, chunk.x, sizeof(x));
+  std::memcpy(&y, chunk.y, sizeof(y));
+  std::memcpy(&z, chunk.z, sizeof(z));
+  const IntLanes dots = __builtin_convertvector(x, IntLanes) * normal.x +
+                        __builtin_convertvector(y, IntLanes) * normal.y +
+                        __builtin_convertvector(z, IntLanes) * normal.z;
+  return lanes_below(-dots, -threshold);
 }
 
 }  // namespace nvm::detail

@@ -72,16 +72,24 @@ inline WideMatrix scaled_square(const WideMatrix& m) {
 }
 
 inline StoredNormal store_direction(const WideVector& v) {
-  const double sq_length = static_cast<double>(dot(v, v));
-  if (sq_length == 0.0) {
+  const auto sq_length = static_cast<float>(dot(v, v));
+  if (sq_length == 0.0F) {
     return {};
   }
-  const double length = std::sqrt(sq_length);
-  const auto component = [length](std::int64_t value) {
-    return static_cast<std::int8_t>(
-        std::nearbyint(static_cast<double>(value * kNormalScale) / length));
+  const float scale = 1.0F / std::sqrt(sq_length);
+  const auto component = [scale](std::int64_t value) {
+    return store_component(static_cast<float>(value) * scale);
   };
   return {component(v.x), component(v.y), component(v.z)};
+}
+
+/// True when the angle between two vectors is below 0.02 rad.
+inline bool is_parallel(const WideVector& a, const WideVector& b) {
+  constexpr double kSqTangent = 0.02 * 0.02;
+  const WideVector cross{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  const auto along = static_cast<double>(dot(a, b));
+  const auto sq = [](std::int64_t v) { return static_cast<double>(v) * static_cast<double>(v); };
+  return sq(cross.x) + sq(cross.y) + sq(cross.z) < kSqTangent * along * along;
 }
 
 inline WideVector widened(const StoredNormal& n) { return {n.x, n.y, n.z}; }
@@ -98,23 +106,31 @@ inline WideVector dominant_eigenvector(WideMatrix m) {
   return m.yy >= m.zz ? WideVector{m.xy, m.yy, m.yz} : WideVector{m.xz, m.yz, m.zz};
 }
 
+inline WideMatrix matrix_of(const SurfaceMoments& moments) {
+  return {moments.xx, moments.xy, moments.xz, moments.yy, moments.yz, moments.zz};
+}
+
+/// True when `direction` is the dominant eigenvector of sum n n^T to the resolution of
+/// StoredNormal: the matrix does not turn it, and its eigenvalue is more than half of the trace.
+inline bool is_principal(const SurfaceMoments& moments, const StoredNormal& direction) {
+  const WideMatrix m = matrix_of(moments);
+  const WideVector v = widened(direction);
+  const WideVector image = m * v;
+  return is_parallel(v, image) && 2 * dot(v, image) > (m.xx + m.yy + m.zz) * dot(v, v);
+}
+
 /// The principal direction of a surface (spec §3.3): the dominant eigenvector of sum n n^T with the
 /// sign of sum n; zero without normals. In integers, because a fused multiply-add here would make
 /// maps differ between processors.
 inline StoredNormal principal_direction(const SurfaceMoments& moments) {
-  const WideMatrix m{moments.xx, moments.xy, moments.xz, moments.yy, moments.yz, moments.zz};
   const WideVector sum{moments.x, moments.y, moments.z};
   // Where the normals agree, as on any wall, one step of the power iteration from their sum is all
-  // it takes. The result is the dominant eigenvector if another step does not move it and its
-  // eigenvalue is more than half of the trace.
-  const StoredNormal guess = store_direction(m * sum);
-  const WideVector direction = widened(guess);
-  const WideVector image = m * direction;
-  if (store_direction(image) == guess &&
-      2 * dot(direction, image) > (m.xx + m.yy + m.zz) * dot(direction, direction)) {
+  // it takes.
+  const StoredNormal guess = store_direction(matrix_of(moments) * sum);
+  if (is_principal(moments, guess)) {
     return guess;
   }
-  const WideVector eigenvector = dominant_eigenvector(m);
+  const WideVector eigenvector = dominant_eigenvector(matrix_of(moments));
   const std::int64_t sign = dot(eigenvector, sum) < 0 ? -1 : 1;
   return store_direction({sign * eigenvector.x, sign * eigenvector.y, sign * eigenvector.z});
 }

@@ -10,6 +10,7 @@
 #include "nvm/map/neighbor.hpp"
 #include "nvm/map/storage/brick.hpp"
 #include "nvm/map/storage/brick_table.hpp"
+#include "nvm/map/storage/lanes.hpp"
 #include "nvm/map/storage/lattice.hpp"
 #include "nvm/map/storage/map_capacity.hpp"
 #include "nvm/map/storage/point_chunk.hpp"
@@ -172,7 +173,7 @@ class VoxelStorage {
     chunk.next_surface = kNone;
     chunk.direction = {};
     chunk.size = 0;
-    chunk.tight = 1;
+    chunk.tight = 0;
     moments_[head] = {};
     return head;
   }
@@ -199,8 +200,7 @@ class VoxelStorage {
     normals_[last].set(lane, normal);
     surface.size = static_cast<std::uint8_t>((surface.size + 1) & 0x7f);
     moments_[head].add(normal);
-    surface.direction = principal_direction(moments_[head]);
-    surface.tight = is_tight(head) ? 1 : 0;
+    update_direction(head, normal);
     ++point_count_;
     return last;
   }
@@ -274,13 +274,28 @@ class VoxelStorage {
     return id;
   }
 
+  /// After `added` has joined the surface.
+  void update_direction(std::uint32_t head, const StoredNormal& added) noexcept {
+    PointChunk& surface = chunks_[head];
+    if (surface.size == 1) {
+      surface.direction = added;
+      surface.tight = 1;
+      return;
+    }
+    if (is_principal(moments_[head], surface.direction)) {  // still: the usual case
+      surface.tight = surface.tight != 0 && dot(added, surface.direction) > kTightDot ? 1 : 0;
+      return;
+    }
+    surface.direction = principal_direction(moments_[head]);
+    surface.tight = is_tight(head) ? 1 : 0;
+  }
+
   bool is_tight(std::uint32_t head) const noexcept {
     int left = chunks_[head].size;
     for (std::uint32_t id = head; left > 0; id = chunks_[id].next, left -= kLanes) {
-      for (int lane = 0; lane < left && lane < kLanes; ++lane) {
-        if (dot(normals_[id].get(lane), chunks_[head].direction) <= kTightDot) {
-          return false;
-        }
+      const std::uint32_t lanes = first_lanes(left);
+      if ((lanes_facing(normals_[id], chunks_[head].direction, kTightDot) & lanes) != lanes) {
+        return false;
       }
     }
     return true;
