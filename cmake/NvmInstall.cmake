@@ -60,6 +60,10 @@ install(
   DESTINATION ${nvm_component_headers}
   FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h")
 
+if(TARGET nvm_program)
+  install(TARGETS nvm_program)
+endif()
+
 configure_package_config_file(
   ${PROJECT_SOURCE_DIR}/cmake/nvm-config.cmake.in ${nvm_generated_dir}/nvm-config.cmake
   INSTALL_DESTINATION ${nvm_package_dir} NO_SET_AND_CHECK_MACRO NO_CHECK_REQUIRED_COMPONENTS_MACRO)

@@ -9,7 +9,7 @@
 #include "thin_wall.hpp"
 
 int main() {
-  std::vector<thin_wall::Return> scan = thin_wall::scan_from({0, -2, 1}, 1);
+  std::vector<thin_wall::Return> scan = thin_wall::scan_from({0, -2, 1});
   scan.push_back({0.0F, 0.0F, std::numeric_limits<float>::quiet_NaN()});
   scan.push_back({0.0F, -20.0F, 5.0F});  // a bird
 

@@ -15,7 +15,7 @@ const Eigen::Vector3d kViewpoint = Eigen::Vector3d::Zero();
 template <class Map>
 void align(const char* name, const Map& map) {
   const Eigen::Vector3d origin(0.3, -1.8, 1.1);
-  const auto scan = thin_wall::scan_from(origin, 3);
+  const auto scan = thin_wall::scan_from(origin);
   const nvm::NormalResult normals = nvm::estimate_normals(scan, kViewpoint);
 
   nvm::ScanAligner<Map> aligner;
@@ -35,7 +35,7 @@ int main() {
   nvm::VoxelMap voxel_map;
   nvm::KdTreeMap kd_tree_map;
   for (const Eigen::Vector3d& origin : {Eigen::Vector3d(0, -2, 1), Eigen::Vector3d(0, 2, 1)}) {
-    const auto scan = thin_wall::scan_from(origin, 1);
+    const auto scan = thin_wall::scan_from(origin);
     const nvm::NormalResult normals = nvm::estimate_normals(scan, kViewpoint);
     voxel_map.insert(scan, normals.normals, thin_wall::pose_at(origin));
     kd_tree_map.insert_unsided(scan, thin_wall::pose_at(origin));

@@ -10,7 +10,7 @@
 
 int main() {
   const Eigen::Vector3d origin(0, -2, 1);
-  const auto scan = thin_wall::scan_from(origin, 1);
+  const auto scan = thin_wall::scan_from(origin);
   const nvm::NormalResult result = nvm::estimate_normals(scan, Eigen::Vector3d(0, 0, 0));
   nvm::VoxelMap map;
   map.insert(scan, result.normals, thin_wall::pose_at(origin));

@@ -22,8 +22,8 @@ struct Return {
 
 /// What a sensor at `origin` sees of the wall's near face and of the floor, in the axes of the map
 /// with the sensor as the origin.
-inline std::vector<Return> scan_from(const Eigen::Vector3d& origin, unsigned seed) {
-  std::mt19937 random(seed);
+inline std::vector<Return> scan_from(const Eigen::Vector3d& origin) {
+  static std::mt19937 random;  // no two scans have the same noise
   std::normal_distribution<double> noise(0.0, kRangeNoise);
   const bool in_front = origin.y() < kFrontY;
   const double face_y = in_front ? kFrontY : kBackY;

@@ -68,12 +68,12 @@ std::size_t allocations_in(const Action& action) {
   return allocation_count - before;
 }
 
-TEST(Contract, the_counter_sees_an_allocation) {
+TEST(Contract, TheCounterSeesAnAllocation) {
   EXPECT_EQ(
       allocations_in([] { std::vector<int>(10).swap(*std::make_unique<std::vector<int>>()); }), 2U);
 }
 
-TEST(Contract, queries_allocate_nothing) {
+TEST(Contract, QueriesAllocateNothing) {
   auto random = rng();
   VoxelMap map;
   const Cloud cloud = random_cloud(20'000, Eigen::Vector3d::Zero(), random);
@@ -96,7 +96,7 @@ TEST(Contract, queries_allocate_nothing) {
   EXPECT_EQ(allocations, 0U);
 }
 
-TEST(Contract, a_full_map_allocates_nothing) {
+TEST(Contract, AFullMapAllocatesNothing) {
   auto random = rng();
   MapOptions options;
   options.capacity = 200;

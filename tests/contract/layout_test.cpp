@@ -7,7 +7,7 @@
 namespace nvm::test {
 namespace {
 
-TEST(Contract, public_structs_have_one_layout_whatever_the_instruction_set) {
+TEST(Contract, PublicStructsHaveOneLayoutWhateverTheInstructionSet) {
   for (std::size_t i = 0; i < kBaselineLayouts.size(); ++i) {
     SCOPED_TRACE(kBaselineLayouts[i].type);
     EXPECT_EQ(kBaselineLayouts[i].size, kAvx2Layouts[i].size);

@@ -48,12 +48,12 @@ class ExecutorLaws : public ::testing::Test {
 using Executors = ::testing::Types<SerialExecutor, TbbExecutor, OpenMpExecutor>;
 TYPED_TEST_SUITE(ExecutorLaws, Executors);
 
-TYPED_TEST(ExecutorLaws, cuts_the_range_into_full_blocks_and_a_rest) {
+TYPED_TEST(ExecutorLaws, CutsTheRangeIntoFullBlocksAndARest) {
   const std::vector<Block> expected{{0, 4}, {4, 8}, {8, 10}};
   EXPECT_EQ(blocks_of(TypeParam{}, 10, 4), expected);
 }
 
-TYPED_TEST(ExecutorLaws, cuts_the_range_as_the_serial_executor_does) {
+TYPED_TEST(ExecutorLaws, CutsTheRangeAsTheSerialExecutorDoes) {
   for (const std::size_t size : {1, 2, 7, 64, 1000}) {
     for (const std::size_t grain : {1, 2, 7, 64, 5000}) {
       SCOPED_TRACE(::testing::Message() << "size " << size << ", grain " << grain);
@@ -62,11 +62,11 @@ TYPED_TEST(ExecutorLaws, cuts_the_range_as_the_serial_executor_does) {
   }
 }
 
-TYPED_TEST(ExecutorLaws, does_nothing_with_an_empty_range) {
+TYPED_TEST(ExecutorLaws, DoesNothingWithAnEmptyRange) {
   EXPECT_TRUE(blocks_of(TypeParam{}, 0, 16).empty());
 }
 
-TYPED_TEST(ExecutorLaws, has_finished_every_block_on_return) {
+TYPED_TEST(ExecutorLaws, HasFinishedEveryBlockOnReturn) {
   constexpr std::size_t kSize = 100'000;
   std::vector<int> visits(kSize, 0);
   TypeParam{}.for_blocks(kSize, 128, [&](std::size_t begin, std::size_t end) {
@@ -77,7 +77,7 @@ TYPED_TEST(ExecutorLaws, has_finished_every_block_on_return) {
   EXPECT_EQ(std::count(visits.begin(), visits.end(), 1), static_cast<std::ptrdiff_t>(kSize));
 }
 
-TYPED_TEST(ExecutorLaws, gives_a_block_wise_sum_of_floats_to_the_last_bit) {
+TYPED_TEST(ExecutorLaws, GivesABlockWiseSumOfFloatsToTheLastBit) {
   auto random = rng();
   std::uniform_real_distribution<float> uniform(-1e6F, 1e6F);
   std::vector<float> values(10'007);

@@ -128,12 +128,12 @@ using PointTypes = ::testing::Types<
     Eigen::RowVector3d>;
 TYPED_TEST_SUITE(PointAccessLaws, PointTypes);
 
-TYPED_TEST(PointAccessLaws, reads_the_coordinates) {
+TYPED_TEST(PointAccessLaws, ReadsTheCoordinates) {
   static_assert(is_point_v<TypeParam> && is_point_v<const TypeParam>);
   EXPECT_EQ(position(make_point<TypeParam>()), kExpected);
 }
 
-TYPED_TEST(PointAccessLaws, containers_of_it_are_ranges) {
+TYPED_TEST(PointAccessLaws, ContainersOfItAreRanges) {
   static_assert(is_point_range_v<std::vector<TypeParam>>);
   static_assert(is_point_range_v<std::vector<TypeParam, Eigen::aligned_allocator<TypeParam>>>);
   static_assert(is_point_range_v<std::array<TypeParam, 4>>);
@@ -142,12 +142,12 @@ TYPED_TEST(PointAccessLaws, containers_of_it_are_ranges) {
   EXPECT_EQ(position(range[0]), kExpected);
 }
 
-TEST(PointAccess, reads_a_record_in_place) {
+TEST(PointAccess, ReadsARecordInPlace) {
   const PinnedRecord point(1.0F, -2.0F, 3.0F);
   EXPECT_EQ(position(point), kExpected);
 }
 
-TEST(PointAccess, reads_eigen_maps_blocks_and_expressions) {
+TEST(PointAccess, ReadsEigenMapsBlocksAndExpressions) {
   const std::array<float, 3> raw{1.0F, -2.0F, 3.0F};
   EXPECT_EQ(position(Eigen::Map<const Eigen::Vector3f>(raw.data())), kExpected);
 
@@ -160,7 +160,7 @@ TEST(PointAccess, reads_eigen_maps_blocks_and_expressions) {
   EXPECT_EQ(position(Eigen::Matrix3d::Identity() * kExpected), kExpected);
 }
 
-TEST(PointAccess, reads_a_cloud_and_a_view) {
+TEST(PointAccess, ReadsACloudAndAView) {
   Cloud cloud;
   cloud.points.push_back(make_point<PaddedRecord>());
   static_assert(is_point_range_v<Cloud>);
@@ -171,18 +171,18 @@ TEST(PointAccess, reads_a_cloud_and_a_view) {
   EXPECT_EQ(position(ColumnView{columns}[1]), kExpected);
 }
 
-TEST(PointAccess, keeps_double_precision_far_from_the_origin) {
+TEST(PointAccess, KeepsDoublePrecisionFarFromTheOrigin) {
   const DoubleRecord point{0.0, 3.0e6 + 1e-9, 2.0, 1.0e6 + 1e-10};
   EXPECT_EQ(position(point), Eigen::Vector3d(1.0e6 + 1e-10, 2.0, 3.0e6 + 1e-9));
 }
 
-TEST(PointAccess, passes_non_finite_coordinates_on) {
+TEST(PointAccess, PassesNonFiniteCoordinatesOn) {
   const FloatRecord point{NAN, INFINITY, 0.0F, 0.0F};
   EXPECT_TRUE(std::isnan(position(point).x()));
   EXPECT_TRUE(std::isinf(position(point).y()));
 }
 
-TEST(PointAccess, refuses_what_is_not_a_point) {
+TEST(PointAccess, RefusesWhatIsNotAPoint) {
   static_assert(!is_point_v<int>);
   static_assert(!is_point_v<Planar>);
   static_assert(!is_point_v<TextRecord>);
@@ -193,7 +193,7 @@ TEST(PointAccess, refuses_what_is_not_a_point) {
   static_assert(!is_point_v<Eigen::Quaterniond>);
 }
 
-TEST(PointAccess, refuses_what_is_not_a_range_of_points) {
+TEST(PointAccess, RefusesWhatIsNotARangeOfPoints) {
   static_assert(!is_point_range_v<FloatRecord>);
   static_assert(!is_point_range_v<FloatRecord*>);
   static_assert(!is_point_range_v<std::vector<double>>);
