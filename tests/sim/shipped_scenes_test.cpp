@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "sim/clearance.hpp"
+#include "sim/lidar.hpp"
+#include "sim/scene_file.hpp"
+#include "sim/sequence_json.hpp"
+
+namespace nvm::sim {
+namespace {
+
+TEST(ShippedScenes, AreTheDocumentedOnes) {
+  const auto names = shipped_scenes();
+  const std::set<std::string> expected{
+      "cafe", "garage", "office", "rooms", "seven_walls", "stairwell", "wall10", "wall15", "wall5"};
+  EXPECT_EQ(std::set<std::string>(names.begin(), names.end()), expected);
+}
+
+class ShippedScene : public ::testing::TestWithParam<std::string> {
+ protected:
+  ShippedScene() : scene_(load_scene(GetParam())), rays_(scene_) {}
+
+  Scene scene_;
+  RayCaster rays_;
+};
+
+INSTANTIATE_TEST_SUITE_P(
+    All, ShippedScene, ::testing::ValuesIn(shipped_scenes()), [](const auto& name) {
+      return name.param;
+    });
+
+TEST_P(ShippedScene, CanBeWalkedWithManySeeds) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const Motion motion(scene_.route, {}, seed, 0.0);
+    EXPECT_NO_THROW(check_clearance(scene_, rays_, motion, 0.25)) << "seed " << seed;
+  }
+}
+
+/// Every other second of a Mid-360 shows both faces of every piece of every listed wall.
+TEST_P(ShippedScene, ShowsBothFacesOfEachListedWall) {
+  const Motion motion(scene_.route, {}, 1, 0.0);
+  const Lidar lidar(find_sensor("mid360"), {}, {scene_, rays_, motion}, 1);
+  SurfaceHits hits(scene_);
+  for (double time = 2.0; time < motion.duration() - 1.0; time += 2.0) {
+    hits.count(lidar.scan(static_cast<std::size_t>(10.0 * time)));
+  }
+  EXPECT_FALSE(scene_.wall_pieces.empty());
+  constexpr std::size_t kMinHits = 10;
+  for (const WallPiece& piece : scene_.wall_pieces) {
+    for (int side = 0; side < 2; ++side) {
+      EXPECT_GE(hits.on_face(piece.box, face_index(piece.axis, side)), kMinHits)
+          << piece.wall << " piece " << piece.piece << " side " << side;
+    }
+  }
+}
+
+TEST_P(ShippedScene, IsClosed) {
+  const Motion motion(scene_.route, {}, 1, 0.0);
+  const Lidar lidar(find_sensor("os0_32"), {}, {scene_, rays_, motion}, 1);
+  for (double time = 1.0; time < motion.duration() - 1.0; time += 30.0) {
+    const SimulatedScan scan = lidar.scan(static_cast<std::size_t>(10.0 * time));
+    EXPECT_EQ(scan.scan.points.size(), 32768U);
+  }
+}
+
+/// The walls of a scene and how thick they are [m].
+std::set<double> thicknesses(const std::string& name) {
+  const Scene scene = load_scene(name);
+  std::set<double> result;
+  for (const WallPiece& piece : scene.wall_pieces) {
+    result.insert(std::round(thickness(scene, piece) * 1e6) / 1e6);
+  }
+  return result;
+}
+
+TEST(ShippedScenes, HaveTheirThicknesses) {
+  EXPECT_EQ(thicknesses("wall15"), std::set<double>({0.15}));
+  EXPECT_EQ(thicknesses("wall10"), std::set<double>({0.10}));
+  EXPECT_EQ(thicknesses("wall5"), std::set<double>({0.05}));
+  EXPECT_EQ(
+      thicknesses("seven_walls"), std::set<double>({0.03, 0.05, 0.07, 0.09, 0.11, 0.13, 0.15}));
+  EXPECT_EQ(thicknesses("rooms"), std::set<double>({0.04, 0.10}));
+  EXPECT_EQ(thicknesses("cafe"), std::set<double>({0.04}));
+  EXPECT_EQ(thicknesses("office"), std::set<double>({0.075}));
+  EXPECT_EQ(thicknesses("stairwell"), std::set<double>({0.10, 0.20}));
+}
+
+}  // namespace
+}  // namespace nvm::sim
