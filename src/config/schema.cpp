@@ -62,7 +62,7 @@ std::string leaf_of(const std::string& dotted) { return dotted.substr(dotted.rfi
 
 std::string print_number(double number) {
   char text[32];
-  return std::string(text, std::to_chars(text, text + sizeof(text), number).ptr);
+  return {text, std::to_chars(text, text + sizeof(text), number).ptr};
 }
 
 std::string describe(const Range& range) {
@@ -197,6 +197,7 @@ void Schema::check_required(const Value& mapping, const std::string& prefix) con
 void Schema::fail_unknown(const Value& mapping, const std::string& name, const Value& value) const {
   const std::vector<std::string> names = dotted_names("");
   std::vector<std::string> leaves;
+  leaves.reserve(names.size());
   for (const std::string& known : names) {
     leaves.push_back(leaf_of(known));
   }

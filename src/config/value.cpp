@@ -4,6 +4,8 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <set>
 #include <stdexcept>
@@ -20,6 +22,8 @@ std::string excerpt(const YAML::Node& node) {
   if (text.size() > kMaxLength) {
     text = text.substr(0, kMaxLength) + "...";
   }
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
   return text;
 }
 
@@ -41,7 +45,7 @@ Value::Value(const YAML::Node& node, std::string key, std::string source)
     : node_(std::make_shared<YAML::Node>(node)), key_(std::move(key)), source_(std::move(source)) {}
 
 Value Value::child(const YAML::Node& node, std::string key) const {
-  return Value(node, std::move(key), source_);
+  return {node, std::move(key), source_};
 }
 
 std::string Value::key_of(const std::string& name) const {

@@ -6,22 +6,35 @@
 
 #include <cctype>
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <stdexcept>
 #include <system_error>
 
 namespace nvm::io {
+namespace {
+
+/// What the system says of the call that failed last.
+std::string last_error() { return std::generic_category().message(errno); }
+
+}  // namespace
 
 void fail(const std::string& path, const std::string& problem) {
   throw std::runtime_error(path + ": " + problem);
 }
 
-std::string read_file(const std::string& path) {
+std::ifstream open_to_read(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path)) {
-    fail(path, std::string("cannot be read: ") + std::strerror(file ? EISDIR : errno));
+  if (!file) {
+    fail(path, "cannot be read: " + last_error());
   }
+  if (std::filesystem::is_directory(path)) {
+    fail(path, "cannot be read: is a folder");
+  }
+  return file;
+}
+
+std::string read_file(const std::string& path) {
+  std::ifstream file = open_to_read(path);
   std::string bytes(std::filesystem::file_size(path), '\0');
   if (!file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) {
     fail(path, "cannot be read to its end");
@@ -37,33 +50,47 @@ std::string extension_of(const std::string& path) {
   return extension;
 }
 
-AtomicFile::AtomicFile(const std::string& path)
-    : path_(path),
-      temporary_(path + ".part" + std::to_string(::getpid())),
-      stream_(temporary_, std::ios::binary) {
-  if (!stream_) {
-    fail(path, std::string("cannot be written: ") + std::strerror(errno));
+std::string quote(std::string_view text) {
+  constexpr std::size_t kMaxLength = 40;
+  std::string quoted = "'";
+  for (const char c : text.substr(0, kMaxLength)) {
+    quoted += std::isprint(static_cast<unsigned char>(c)) != 0 ? c : '?';
   }
+  return quoted + (text.size() > kMaxLength ? "...'" : "'");
 }
 
-AtomicFile::~AtomicFile() {
-  if (stream_.is_open()) {
-    stream_.close();
+PendingPath::PendingPath(const std::string& path)
+    : path_(path), temporary_(path + ".part" + std::to_string(::getpid())) {}
+
+PendingPath::~PendingPath() {
+  if (!is_committed_) {
     std::error_code ignored;
-    std::filesystem::remove(temporary_, ignored);
+    std::filesystem::remove_all(temporary_, ignored);
   }
 }
 
-void AtomicFile::commit() {
-  if (!stream_.flush()) {
-    fail(path_, std::string("cannot be written: ") + std::strerror(errno));
-  }
+void PendingPath::commit() {
   std::error_code error;
   std::filesystem::rename(temporary_, path_, error);
   if (error) {
     fail(path_, "cannot be written: " + error.message());
   }
+  is_committed_ = true;
+}
+
+AtomicFile::AtomicFile(const std::string& path)
+    : pending_(path), stream_(pending_.temporary(), std::ios::binary) {
+  if (!stream_) {
+    fail(path, "cannot be written: " + last_error());
+  }
+}
+
+void AtomicFile::commit() {
   stream_.close();
+  if (!stream_) {
+    fail(pending_.path(), "cannot be written: " + last_error());
+  }
+  pending_.commit();
 }
 
 }  // namespace nvm::io

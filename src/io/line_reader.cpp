@@ -2,10 +2,9 @@
 // Copyright (c) 2026 The nvm authors
 #include "io/line_reader.hpp"
 
-#include <cerrno>
+#include <charconv>
 #include <cmath>
-#include <cstring>
-#include <filesystem>
+#include <system_error>
 
 #include "config/value.hpp"
 #include "io/file.hpp"
@@ -24,11 +23,14 @@ std::vector<std::string_view> split(std::string_view line) {
   return words;
 }
 
-LineReader::LineReader(const std::string& path) : path_(path), file_(path) {
-  if (!file_ || std::filesystem::is_directory(path)) {
-    io::fail(path, std::string("cannot be read: ") + std::strerror(file_ ? EISDIR : errno));
-  }
+std::optional<std::size_t> parse_whole_number(std::string_view word) {
+  std::size_t number = 0;
+  const char* end = word.data() + word.size();
+  const auto [rest, error] = std::from_chars(word.data(), end, number);
+  return error == std::errc() && rest == end ? std::optional(number) : std::nullopt;
 }
+
+LineReader::LineReader(const std::string& path) : path_(path), file_(open_to_read(path)) {}
 
 std::optional<std::vector<std::string_view>> LineReader::next() {
   while (std::getline(file_, line_)) {
@@ -44,7 +46,7 @@ std::optional<std::vector<std::string_view>> LineReader::next() {
 double LineReader::number(std::string_view word) const {
   const auto number = config::parse_number(word);
   if (!number || !std::isfinite(*number)) {
-    fail("'" + std::string(word.substr(0, 40)) + "' is not a finite number");
+    fail(quote(word) + " is not a finite number");
   }
   return *number;
 }

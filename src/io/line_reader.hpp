@@ -14,6 +14,9 @@ namespace nvm::io {
 /// The words of a line, parted by blanks, tabs or commas.
 std::vector<std::string_view> split(std::string_view line);
 
+/// The whole number of zero or more that all of `word` spells; nothing when it spells none.
+std::optional<std::size_t> parse_whole_number(std::string_view word);
+
 /// A text file, one line of words at a time; empty lines and what follows a '#' are left out.
 class LineReader {
  public:

@@ -6,7 +6,6 @@
 
 #include <cstring>
 
-#include "io/file.hpp"
 #include "io/trajectory_io.hpp"
 
 namespace nvm::io {
@@ -41,22 +40,16 @@ void encode(const lio::TimedPoint& point, char* record) {
 }  // namespace
 
 NvmSequenceWriter::NvmSequenceWriter(const std::string& folder)
-    : folder_(folder), partial_(folder + ".partial") {
-  if (fs::exists(folder_)) {
+    : pending_(folder), folder_(pending_.temporary()) {
+  if (fs::exists(folder)) {
     fail(folder, "exists already");
   }
   std::error_code error;
-  fs::remove_all(partial_, error);
-  if (!fs::create_directories(partial_ / "scans", error)) {
-    fail(partial_.string(), "cannot be created");
+  if (!fs::create_directories(folder_ / "scans", error)) {
+    fail(folder, "cannot be created: " + error.message());
   }
-  scan_list_ = open_for_writing(partial_ / "scans.csv");
+  scan_list_ = open_for_writing(folder_ / "scans.csv");
   scan_list_ << "index,t_begin,t_end,file\n";
-}
-
-NvmSequenceWriter::~NvmSequenceWriter() {
-  std::error_code ignored;
-  fs::remove_all(partial_, ignored);
 }
 
 void NvmSequenceWriter::add_scan(const lio::Scan& scan) {
@@ -74,7 +67,7 @@ void NvmSequenceWriter::add_scan(const lio::Scan& scan) {
 
 void NvmSequenceWriter::write_imu(const std::vector<lio::ImuSample>& samples) {
   if (!imu_.is_open()) {
-    imu_ = open_for_writing(partial_ / "imu.csv");
+    imu_ = open_for_writing(folder_ / "imu.csv");
     imu_ << "t,gx,gy,gz,ax,ay,az\n";
   }
   for (const lio::ImuSample& sample : samples) {
@@ -91,26 +84,22 @@ void NvmSequenceWriter::write_imu(const std::vector<lio::ImuSample>& samples) {
 }
 
 void NvmSequenceWriter::write_groundtruth(const Trajectory& T_world_imu) {
-  write_tum((partial_ / "groundtruth.tum").string(), T_world_imu);
+  write_tum((folder_ / "groundtruth.tum").string(), T_world_imu);
 }
 
 void NvmSequenceWriter::write_text(const std::string& name, const std::string& text) {
-  const fs::path path = partial_ / name;
+  const fs::path path = folder_ / name;
   std::ofstream stream = open_for_writing(path);
   stream.write(text.data(), static_cast<std::streamsize>(text.size()));
   close(stream, path);
 }
 
 void NvmSequenceWriter::commit() {
-  close(scan_list_, partial_ / "scans.csv");
+  close(scan_list_, folder_ / "scans.csv");
   if (imu_.is_open()) {
-    close(imu_, partial_ / "imu.csv");
+    close(imu_, folder_ / "imu.csv");
   }
-  std::error_code error;
-  fs::rename(partial_, folder_, error);
-  if (error) {
-    fail(folder_.string(), "cannot be put in place: " + error.message());
-  }
+  pending_.commit();
 }
 
 }  // namespace nvm::io

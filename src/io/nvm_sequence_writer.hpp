@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "io/file.hpp"
 #include "lio/sensor_data.hpp"
 #include "nvm/geometry/trajectory.hpp"
 
@@ -21,9 +22,6 @@ class NvmSequenceWriter {
  public:
   /// Throws std::runtime_error as well when `folder` exists.
   explicit NvmSequenceWriter(const std::string& folder);
-  ~NvmSequenceWriter();
-  NvmSequenceWriter(const NvmSequenceWriter&) = delete;
-  NvmSequenceWriter& operator=(const NvmSequenceWriter&) = delete;
 
   void add_scan(const lio::Scan& scan);
   /// Appends to the samples written before.
@@ -36,8 +34,8 @@ class NvmSequenceWriter {
   void commit();
 
  private:
-  std::filesystem::path folder_;
-  std::filesystem::path partial_;
+  PendingPath pending_;
+  std::filesystem::path folder_;  ///< under its temporary name
   std::ofstream scan_list_;
   std::ofstream imu_;
   std::size_t scan_count_ = 0;

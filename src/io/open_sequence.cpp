@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
+#include <fmt/format.h>
+
 #include <filesystem>
+#include <stdexcept>
 
 #include "io/file.hpp"
 #include "io/nvm_sequence_reader.hpp"
@@ -24,6 +27,10 @@ bool is_ros2_bag(const std::string& path) {
 
 std::unique_ptr<SequenceReader> open_sequence(
     const std::string& path, const SequenceOptions& options) {
+  if (!(options.scan_rate >= 0.01 && options.scan_rate <= 1000.0)) {
+    throw std::invalid_argument(
+        fmt::format("scan_rate = {}: must be from 0.01 to 1000", options.scan_rate));
+  }
   if (!std::filesystem::exists(path)) {
     fail(path, "does not exist");
   }

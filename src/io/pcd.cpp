@@ -3,7 +3,6 @@
 #include "io/pcd.hpp"
 
 #include <array>
-#include <charconv>
 #include <optional>
 #include <utility>
 
@@ -92,21 +91,18 @@ class HeaderParser {
     } else if (entry.key == "DATA") {
       header_.encoding = entry.values.empty() ? "nothing" : std::string(entry.values[0]);
     } else if (entry.key != "VERSION" && entry.key != "VIEWPOINT") {
-      fail(path_, "is no PCD file: unknown header entry '" + shown(entry.key) + "'");
+      fail(path_, "is no PCD file: unknown header entry " + quote(entry.key));
     }
   }
-
-  static std::string shown(std::string_view word) { return std::string(word.substr(0, 40)); }
 
   std::vector<std::size_t> numbers(const Entry& entry) const {
     std::vector<std::size_t> numbers;
     for (const std::string_view word : entry.values) {
-      std::size_t number = 0;
-      const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-      if (error != std::errc() || rest != word.data() + word.size()) {
-        fail(path_, std::string(entry.key) + " " + shown(word) + " is not a whole number");
+      const auto number = parse_whole_number(word);
+      if (!number) {
+        fail(path_, std::string(entry.key) + " " + quote(word) + " is no whole number");
       }
-      numbers.push_back(number);
+      numbers.push_back(*number);
     }
     return numbers;
   }
@@ -130,7 +126,8 @@ ScalarType scalar_type(const std::string& path, const std::string& type, std::si
       return known.scalar;
     }
   }
-  fail(path, "field of TYPE " + type + " and SIZE " + std::to_string(size) + " is not known");
+  fail(
+      path, "field of TYPE " + quote(type) + " and SIZE " + std::to_string(size) + " is not known");
 }
 
 /// The number of points that WIDTH, HEIGHT and POINTS agree on.
@@ -158,8 +155,8 @@ PointRecords records_of(const std::string& path, const Header& header) {
     if (count == 0 || count > kMaxFieldCount) {
       fail(
           path,
-          "COUNT " + std::to_string(count) + " of field '" + header.names[i] +
-              "' is not from 1 to " + std::to_string(kMaxFieldCount));
+          "COUNT " + std::to_string(count) + " of field " + quote(header.names[i]) +
+              " is not from 1 to " + std::to_string(kMaxFieldCount));
     }
     records.add_field(header.names[i], scalar_type(path, header.types[i], header.sizes[i]), count);
   }
@@ -218,7 +215,7 @@ PointRecords read_pcd(const std::string& path) {
   } else if (header.encoding == "binary_compressed") {
     read_compressed(std::string_view(bytes).substr(header.end), records);
   } else {
-    fail(path, "DATA " + header.encoding.substr(0, 40) + " is not known");
+    fail(path, "DATA " + quote(header.encoding) + " is not known");
   }
   return checked(std::move(records));
 }

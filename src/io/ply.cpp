@@ -3,7 +3,6 @@
 #include "io/ply.hpp"
 
 #include <array>
-#include <charconv>
 #include <utility>
 
 #include "io/file.hpp"
@@ -83,7 +82,7 @@ class HeaderParser {
         element.records.add_field(std::string(words[2]), scalar_type(words[1]));
       }
     } else {
-      fail(path_, "unknown header line '" + std::string(words[0].substr(0, 40)) + " ...'");
+      fail(path_, "unknown header line of " + quote(words[0]));
     }
   }
 
@@ -91,11 +90,11 @@ class HeaderParser {
     Element element;
     element.name = name;
     element.records.source = path_;
-    const char* end = count.data() + count.size();
-    const auto [rest, error] = std::from_chars(count.data(), end, element.records.size);
-    if (error != std::errc() || rest != end) {
-      fail(path_, "element count '" + std::string(count.substr(0, 40)) + "' is no whole number");
+    const auto size = parse_whole_number(count);
+    if (!size) {
+      fail(path_, "element count " + quote(count) + " is no whole number");
     }
+    element.records.size = *size;
     header_.elements.push_back(std::move(element));
   }
 
@@ -105,7 +104,7 @@ class HeaderParser {
         return known.scalar;
       }
     }
-    fail(path_, "property type '" + std::string(name.substr(0, 40)) + "' is not known");
+    fail(path_, "property type " + quote(name) + " is not known");
   }
 
   std::string path_;
@@ -118,7 +117,7 @@ PointRecords skip_to_vertices(Header& header, const std::string& path, std::stri
   for (Element& element : header.elements) {
     const PointRecords& records = element.records;
     if (element.has_list) {
-      fail(path, "list properties in element '" + element.name + "' are not supported");
+      fail(path, "list properties in element " + quote(element.name) + " are not supported");
     }
     if (element.name == "vertex") {
       return std::move(element.records);
@@ -148,7 +147,7 @@ PointRecords read_ply(const std::string& path) {
     records.is_big_endian = header.encoding == "binary_big_endian";
     records.bytes = data;
   } else {
-    fail(path, "format '" + header.encoding.substr(0, 40) + "' is not known");
+    fail(path, "format " + quote(header.encoding) + " is not known");
   }
   return checked(std::move(records));
 }

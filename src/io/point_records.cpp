@@ -104,7 +104,7 @@ PointRecords checked(PointRecords records) {
     if (field.count == 0 || field.count > room / size_of(field.type)) {
       fail(
           records.source,
-          "field '" + field.name + "' does not fit into a record of " +
+          "field " + quote(field.name) + " does not fit into a record of " +
               std::to_string(record_size) + " bytes");
     }
   }

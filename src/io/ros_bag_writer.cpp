@@ -5,13 +5,10 @@
 #include <rosbag/bag.h>
 #include <sensor_msgs/Imu.h>
 #include <sensor_msgs/PointCloud2.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
-#include <system_error>
 
 #include "io/file.hpp"
 #include "io/ros_messages.hpp"
@@ -151,54 +148,7 @@ sensor_msgs::PointCloud2 cloud_message(const lio::Scan& scan) {
   return message;
 }
 
-}  // namespace
-
-struct RosBagWriter::Impl {
-  std::string path;
-  std::string temporary;
-  CloudMessageType type;
-  rosbag::Bag bag;
-
-  template <class Message>
-  void write(const char* topic, double time, const Message& message) {
-    try {
-      bag.write(topic, std::max(ros::Time(time), ros::TIME_MIN), message);
-    } catch (const std::exception& error) {
-      fail(path, error.what());
-    }
-  }
-};
-
-RosBagWriter::RosBagWriter(const std::string& path, CloudMessageType type)
-    : impl_(std::make_unique<Impl>()) {
-  impl_->path = path;
-  impl_->temporary = path + ".part" + std::to_string(::getpid());
-  impl_->type = type;
-  try {
-    impl_->bag.open(impl_->temporary, rosbag::bagmode::Write);
-  } catch (const std::exception& error) {
-    fail(path, error.what());
-  }
-}
-
-RosBagWriter::~RosBagWriter() {
-  if (impl_->bag.isOpen()) {
-    std::error_code ignored;
-    std::filesystem::remove(impl_->temporary, ignored);
-  }
-}
-
-void RosBagWriter::add_scan(const lio::Scan& scan) {
-  if (impl_->type == CloudMessageType::kPointCloud2) {
-    impl_->write("/lidar", scan.t_end, cloud_message(scan));
-  } else {
-    const bool is_first = impl_->type == CloudMessageType::kLivoxCustom;
-    const char* package = is_first ? "livox_ros_driver" : "livox_ros_driver2";
-    impl_->write("/lidar", scan.t_end, livox_message(scan, package));
-  }
-}
-
-void RosBagWriter::add_imu(const lio::ImuSample& sample) {
+sensor_msgs::Imu imu_message(const lio::ImuSample& sample) {
   sensor_msgs::Imu message;
   message.header = header_at(sample.time, "imu");
   message.orientation_covariance[0] = -1.0;  // no orientation
@@ -208,16 +158,58 @@ void RosBagWriter::add_imu(const lio::ImuSample& sample) {
   message.linear_acceleration.x = sample.accel.x();
   message.linear_acceleration.y = sample.accel.y();
   message.linear_acceleration.z = sample.accel.z();
-  impl_->write("/imu", sample.time, message);
+  return message;
+}
+
+}  // namespace
+
+struct RosBagWriter::Impl {
+  PendingPath pending;
+  CloudMessageType type;
+  rosbag::Bag bag;
+
+  /// Does what may throw, and names the file when it does.
+  template <class Action>
+  void attempt(const Action& action) {
+    try {
+      action();
+    } catch (const std::exception& error) {
+      fail(pending.path(), error.what());
+    }
+  }
+
+  template <class Message>
+  void write(const char* topic, double time, const Message& message) {
+    bag.write(topic, std::max(ros::Time(time), ros::TIME_MIN), message);
+  }
+};
+
+RosBagWriter::RosBagWriter(const std::string& path, CloudMessageType type)
+    : impl_(new Impl{PendingPath(path), type, {}}) {
+  impl_->attempt([&] { impl_->bag.open(impl_->pending.temporary(), rosbag::bagmode::Write); });
+}
+
+RosBagWriter::~RosBagWriter() = default;
+
+void RosBagWriter::add_scan(const lio::Scan& scan) {
+  impl_->attempt([&] {
+    if (impl_->type == CloudMessageType::kPointCloud2) {
+      impl_->write("/lidar", scan.t_end, cloud_message(scan));
+    } else {
+      const bool is_first = impl_->type == CloudMessageType::kLivoxCustom;
+      const char* package = is_first ? "livox_ros_driver" : "livox_ros_driver2";
+      impl_->write("/lidar", scan.t_end, livox_message(scan, package));
+    }
+  });
+}
+
+void RosBagWriter::add_imu(const lio::ImuSample& sample) {
+  impl_->attempt([&] { impl_->write("/imu", sample.time, imu_message(sample)); });
 }
 
 void RosBagWriter::commit() {
-  try {
-    impl_->bag.close();
-    std::filesystem::rename(impl_->temporary, impl_->path);
-  } catch (const std::exception& error) {
-    fail(impl_->path, error.what());
-  }
+  impl_->attempt([&] { impl_->bag.close(); });
+  impl_->pending.commit();
 }
 
 }  // namespace nvm::io

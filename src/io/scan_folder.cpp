@@ -82,7 +82,7 @@ std::vector<ScanFile> listed_scans(const std::vector<ScanFile>& scans, const std
     const std::string name = fs::path(std::string((*words)[0])).filename().string();
     const double time = lines.number((*words)[1]);
     if (paths.count(name) == 0) {
-      lines.fail("there is no scan '" + name + "'");
+      lines.fail("there is no scan " + quote(name));
     }
     if (!listed.empty() && time <= listed.back().time) {
       lines.fail("the time is not above the one before");

@@ -56,7 +56,8 @@ class SequenceReader {
 };
 
 /// Opens a folder of PCD, PLY or KITTI .bin scans, an nvm sequence folder, or a ROS 1 bag.
-/// Throws std::runtime_error, naming `path`, when it is none of these.
+/// Throws std::runtime_error, naming `path`, when it is none of these, and std::invalid_argument
+/// for an option out of its range.
 std::unique_ptr<SequenceReader> open_sequence(
     const std::string& path, const SequenceOptions& options = {});
 

@@ -162,6 +162,7 @@ TEST(Schema, WrongTypeNamesKeyValueAndType) {
     EXPECT_THAT(error, HasSubstr("must be a number from 0.01 to 100")) << number;
   }
   EXPECT_THAT(error_of("threads: 1.5"), HasSubstr("threads = 1.5: must be a whole number"));
+  EXPECT_THAT(error_of("threads: \"1\\n2\""), HasSubstr("threads = 1 2: must be"));
   EXPECT_THAT(error_of("enabled: 3"), HasSubstr("must be true or false"));
   EXPECT_THAT(error_of("topic: [a]"), HasSubstr("must be text"));
   EXPECT_THAT(error_of("map: {rule: best}"), HasSubstr("must be one of paper, smallest"));

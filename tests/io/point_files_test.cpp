@@ -241,21 +241,22 @@ TEST_F(PointFiles, HostilePcdHeadersAreNamedAndAllocateNothing) {
   EXPECT_THAT(error_of(layout + "WIDTH 4294967296\nHEIGHT 4294967296\n"), HasSubstr("contradict"));
   EXPECT_THAT(error_of(layout + "WIDTH 2\nPOINTS 3\n"), HasSubstr("contradict"));
   EXPECT_THAT(error_of(layout), HasSubstr("missing"));
-  EXPECT_THAT(error_of(layout + "WIDTH -1\n"), HasSubstr("WIDTH -1 is not a whole number"));
+  EXPECT_THAT(error_of(layout + "WIDTH -1\n"), HasSubstr("WIDTH '-1' is no whole number"));
   EXPECT_THAT(error_of(layout + "WIDTH 1\nCOUNT 0\n"), HasSubstr("COUNT 0 of field 'x'"));
   EXPECT_THAT(
       error_of(layout + "WIDTH 1\nCOUNT 18446744073709551615\n"), HasSubstr("is not from 1"));
-  EXPECT_THAT(error_of("FIELDS x\nSIZE -4\nTYPE F\nWIDTH 1\n"), HasSubstr("SIZE -4"));
+  EXPECT_THAT(error_of("FIELDS x\nSIZE -4\nTYPE F\nWIDTH 1\n"), HasSubstr("SIZE '-4'"));
   EXPECT_THAT(
-      error_of("FIELDS x\nSIZE 3\nTYPE F\nWIDTH 1\n"), HasSubstr("TYPE F and SIZE 3 is not known"));
+      error_of("FIELDS x\nSIZE 3\nTYPE F\nWIDTH 1\n"),
+      HasSubstr("TYPE 'F' and SIZE 3 is not known"));
   EXPECT_THAT(error_of("FIELDS x y\nSIZE 4\nTYPE F\nWIDTH 1\n"), HasSubstr("differ in length"));
   EXPECT_THAT(error_of("WIDTH 1\n"), HasSubstr("missing"));
-  EXPECT_THAT(error_of(kThreeFloats, "DATA zip\n"), HasSubstr("DATA zip is not known"));
+  EXPECT_THAT(error_of(kThreeFloats, "DATA zip\n"), HasSubstr("DATA 'zip' is not known"));
   EXPECT_THAT(error_of(kThreeFloats, ""), HasSubstr("no DATA line"));
   EXPECT_THAT(error_of(kThreeFloats, "DATA ascii\n1 2 3\n"), HasSubstr("1 of 2 points"));
   EXPECT_THAT(error_of(kThreeFloats, "DATA ascii\n1 2 3\n1 2\n"), HasSubstr("point 1 is not"));
   EXPECT_THAT(error_of(kThreeFloats, "DATA ascii\n1 2 b\n"), HasSubstr("point 0 is not"));
-  EXPECT_THAT(error_of("JPEG\n"), HasSubstr("is no PCD file"));
+  EXPECT_THAT(error_of("\x1b[2J\n"), HasSubstr("is no PCD file: unknown header entry '?[2J'"));
 }
 
 TEST_F(PointFiles, HostilePlyHeadersAreNamedAndAllocateNothing) {

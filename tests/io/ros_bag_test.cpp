@@ -199,6 +199,13 @@ TEST_F(RosBag, TruncatedBagsAreAnError) {
   }
 }
 
+TEST_F(RosBag, DamagedBagsNeverDoMoreThanThrow) {
+  auto rng = test::rng();
+  const std::string whole = read_file(write_bag(CloudMessageType::kPointCloud2, 1000.1));
+  test::read_damaged(
+      whole, rng, [&](const std::string& bytes) { read_all(write("bad.bag", bytes)); }, 200);
+}
+
 #endif
 
 }  // namespace

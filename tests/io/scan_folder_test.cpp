@@ -187,6 +187,8 @@ TEST_F(ScanFolder, AssumesARateWithoutTimes) {
   EXPECT_FALSE(reader->info().has_imu);
   reader->next_scan();
   EXPECT_EQ(reader->next_scan()->t_begin, 2.0);
+  options.scan_rate = 0.0;
+  EXPECT_THROW(open_sequence(path(""), options), std::invalid_argument);
 }
 
 TEST_F(ScanFolder, TakesTimesFromListInSubfolderOrAbove) {
