@@ -165,7 +165,9 @@ TEST(PrincipalDirection, IsTheDominantEigenvectorWithTheSignOfTheSum) {
     }
     ++checked;
     const Eigen::Vector3d direction = load_normal(principal_direction(moments)).cast<double>();
-    ASSERT_GT(direction.dot(expected), std::cos(0.05)) << solver.eigenvalues().transpose();
+    const double ratio = solver.eigenvalues()[1] / solver.eigenvalues()[2];
+    const double bound = 0.008 + 0.02 / (1.0 - ratio);  // rounding, and what the matrix may turn it
+    ASSERT_GT(direction.dot(expected), std::cos(bound)) << solver.eigenvalues().transpose();
   }
   EXPECT_GT(checked, 15000);
   EXPECT_EQ(principal_direction(SurfaceMoments{}), StoredNormal{});

@@ -110,13 +110,15 @@ inline WideMatrix matrix_of(const SurfaceMoments& moments) {
   return {moments.xx, moments.xy, moments.xz, moments.yy, moments.yz, moments.zz};
 }
 
-/// True when `direction` is the dominant eigenvector of sum n n^T to the resolution of
-/// StoredNormal: the matrix does not turn it, and its eigenvalue is more than half of the trace.
+/// True when `direction` is the principal direction to about 2 degrees, more than enough for a
+/// threshold of 90 +- 10: the matrix hardly turns it, its eigenvalue is more than half of the
+/// trace, and it looks where the sum looks.
 inline bool is_principal(const SurfaceMoments& moments, const StoredNormal& direction) {
   const WideMatrix m = matrix_of(moments);
   const WideVector v = widened(direction);
   const WideVector image = m * v;
-  return is_parallel(v, image) && 2 * dot(v, image) > (m.xx + m.yy + m.zz) * dot(v, v);
+  return is_parallel(v, image) && 2 * dot(v, image) > (m.xx + m.yy + m.zz) * dot(v, v) &&
+         dot(v, {moments.x, moments.y, moments.z}) > 0;
 }
 
 /// The principal direction of a surface (spec §3.3): the dominant eigenvector of sum n n^T with the
