@@ -108,6 +108,7 @@ RunEvaluation evaluate_run(
   const fs::path run(folder);
   RunEvaluation result;
   result.name = folder_name(folder);
+  result.timing = read_timing((run / "timing.json").string());
   OrientedCloud cloud = read_oriented_cloud((run / "map.ply").string());
   if (truth) {
     result.trajectory = evaluate_trajectory(

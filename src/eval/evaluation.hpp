@@ -9,6 +9,7 @@
 
 #include "eval/alignment.hpp"
 #include "eval/crispness.hpp"
+#include "eval/timing.hpp"
 #include "eval/trajectory_error.hpp"
 #include "eval/wall_evaluation.hpp"
 #include "nvm/geometry/trajectory.hpp"
@@ -59,6 +60,7 @@ struct RunEvaluation {
   std::string name;
   std::optional<TrajectoryEvaluation> trajectory;  ///< nothing without a truth
   MapEvaluation map;
+  std::vector<StageTiming> timing;  ///< none when the run has no timing.json
 };
 
 /// Several runs side by side, against one truth.

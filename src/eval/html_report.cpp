@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 
@@ -158,6 +159,25 @@ std::string map_rows(const Evaluation& evaluation) {
          });
 }
 
+const StageTiming* find_stage(const RunEvaluation& run, const std::string& stage) {
+  const auto found = std::find_if(
+      run.timing.begin(), run.timing.end(), [&](const StageTiming& t) { return t.stage == stage; });
+  return found == run.timing.end() ? nullptr : &*found;
+}
+
+/// One row per stage that the first run timed.
+std::string timing_rows(const Evaluation& evaluation) {
+  std::string rows;
+  for (const StageTiming& first : evaluation.runs[0].timing) {
+    rows += run_row(
+        evaluation, "CPU per scan, mean (max): " + first.stage, [&](const RunEvaluation& run) {
+          const StageTiming* stage = find_stage(run, first.stage);
+          return stage ? fmt::format("{:.2f} ({:.2f})", stage->mean_ms, stage->max_ms) : "–";
+        });
+  }
+  return rows;
+}
+
 std::string wall_cell(const WallEvaluation& wall) {
   if (!wall.is_seen) {
     return "not seen from both sides";
@@ -229,7 +249,7 @@ std::string html_report(const Evaluation& evaluation, const std::vector<WallPict
   if (evaluation.truth) {
     page += trajectory_rows(evaluation) + wall_summary_rows(evaluation);
   }
-  page += map_rows(evaluation) + "</table>\n";
+  page += map_rows(evaluation) + timing_rows(evaluation) + "</table>\n";
   if (evaluation.truth) {
     page += "<h2>Trajectories</h2>\n" + run_buttons(evaluation) + "<div class=\"row\">" +
             trajectory_chart(evaluation) + error_chart(evaluation) + "</div>\n";

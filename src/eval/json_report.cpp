@@ -113,13 +113,24 @@ json to_json(const MapEvaluation& map) {
       {"regions", to_json(map.regions)}};
 }
 
+json to_json(const std::vector<StageTiming>& timing) {
+  json stages = json::object();
+  for (const StageTiming& stage : timing) {
+    stages[stage.stage] = {{"mean", stage.mean_ms}, {"max", stage.max_ms}};
+  }
+  return stages;
+}
+
 }  // namespace
 
 std::string json_report(const Evaluation& evaluation) {
   json runs = json::array();
   for (const RunEvaluation& run : evaluation.runs) {
     runs.push_back(
-        {{"name", run.name}, {"trajectory", to_json(run.trajectory)}, {"map", to_json(run.map)}});
+        {{"name", run.name},
+         {"trajectory", to_json(run.trajectory)},
+         {"map", to_json(run.map)},
+         {"cpu", to_json(run.timing)}});
   }
   return json{{"runs", runs}}.dump(2) + "\n";
 }

@@ -3,16 +3,16 @@
 #include "eval/wall.hpp"
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "eval/json_file.hpp"
 #include "io/file.hpp"
 
 namespace nvm::eval {
 
 namespace {
 
-using nlohmann::json;
+using json = nlohmann::ordered_json;
 
 Eigen::Vector3d read_vector(const json& value) {
   const auto numbers = value.get<std::array<double, 3>>();
@@ -67,18 +67,10 @@ WallPiece read_piece(const json& value) {
   return piece;
 }
 
-json parse(const std::string& path) {
-  try {
-    return json::parse(io::read_file(path));
-  } catch (const json::exception& error) {
-    io::fail(path, std::string("not JSON: ") + error.what());
-  }
-}
-
 }  // namespace
 
 std::vector<WallPiece> read_walls(const std::string& path) {
-  const json scene = parse(path);
+  const json scene = read_json(path);
   if (!scene.is_object() || !scene.contains("walls") || !scene["walls"].is_array()) {
     io::fail(path, "has no list 'walls'");
   }

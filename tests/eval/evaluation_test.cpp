@@ -102,6 +102,25 @@ TEST_F(EvaluationOfRuns, NeedsNoTruthForRegions) {
   const RunEvaluation run = evaluate_run((folder_ / "real").string(), std::nullopt, options);
   EXPECT_FALSE(run.trajectory.has_value());
   EXPECT_NEAR(run.map.regions.at(0).thickness.value(), 0.05, 1.5e-3);
+  write_report({std::nullopt, {run}}, (folder_ / "report").string());
+  const std::string html = io::read_file((folder_ / "report/report.html").string());
+  EXPECT_THAT(html, HasSubstr("Regions"));
+  EXPECT_THAT(html, Not(HasSubstr("Trajectories")));
+}
+
+TEST_F(EvaluationOfRuns, ReadsTheTimesOfStages) {
+  add_run("nvm", OrientedCloud());
+  EXPECT_TRUE(evaluate("nvm").timing.empty());
+  const auto timing = folder_ / "nvm" / "timing.json";
+  test::write_text(
+      timing, R"({"cpu": {"b_ms": {"mean": 2, "max": 5}, "a_ms": {"mean": 1, "max": 3}}})");
+  const auto stages = evaluate("nvm").timing;
+  ASSERT_EQ(stages.size(), 2U);
+  EXPECT_EQ(stages[0].stage, "b_ms");
+  EXPECT_EQ(stages[0].mean_ms, 2.0);
+  EXPECT_EQ(stages[1].max_ms, 3.0);
+  test::write_text(timing, R"({"cpu": {"a_ms": 1}})");
+  EXPECT_THAT(error_of("nvm"), HasSubstr("timing.json"));
 }
 
 TEST_F(EvaluationOfRuns, TakesAnEmptyMapForOneWithoutWalls) {
