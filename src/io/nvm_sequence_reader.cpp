@@ -122,7 +122,7 @@ class NvmSequence : public SequenceReader {
     if (info_.has_imu) {
       imu_.emplace(folder + "/imu.csv");
     } else {
-      info_.notes.push_back("there is no imu.csv: the sequence is read without IMU");
+      info_.notes.emplace_back("there is no imu.csv: the sequence is read without IMU");
     }
     fixed_notes_ = info_.notes.size();
   }
@@ -156,7 +156,7 @@ class NvmSequence : public SequenceReader {
     if (meta.T_imu_lidar) {
       info_.T_imu_lidar = *meta.T_imu_lidar;
     } else {
-      info_.notes.push_back("meta.json has no T_imu_lidar: the identity is assumed");
+      info_.notes.emplace_back("meta.json has no T_imu_lidar: the identity is assumed");
     }
     const std::size_t points = point_count(scans_);
     if (meta.scans.value_or(scans_.size()) == scans_.size() &&

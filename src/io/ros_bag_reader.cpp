@@ -30,7 +30,12 @@ bool is_livox(const std::string& type) { return type == kLivoxType || type == kL
 bool is_cloud(const std::string& type) { return type == kCloudType || is_livox(type); }
 bool is_imu(const std::string& type) { return type == kImuType; }
 
+/// A message as it is serialised.
 std::string bytes_of(const rosbag::MessageInstance& message) {
+  constexpr std::uint32_t kMaxSize = 1U << 28;  // rosbag believes any size that a damaged file says
+  if (message.size() > kMaxSize) {
+    throw std::runtime_error("is corrupt: a message says that it has more than 256 MiB");
+  }
   std::string bytes(message.size(), '\0');
   ros::serialization::OStream stream(
       reinterpret_cast<std::uint8_t*>(bytes.data()), static_cast<std::uint32_t>(bytes.size()));
@@ -118,13 +123,13 @@ class RosBag : public SequenceReader {
     info_.format = "ROS 1 bag";
     info_.scan_count = rosbag::View(bag_, rosbag::TopicQuery(lidar)).size();
     info_.has_imu = !imu.empty();
-    info_.notes.push_back("a bag does not tell T_imu_lidar: the identity is assumed");
+    info_.notes.emplace_back("a bag does not tell T_imu_lidar: the identity is assumed");
     if (info_.has_imu) {
       rosbag::View samples(bag_, rosbag::TopicQuery(imu));
       accel_scale_ = accel_scale(samples, options.accel_unit);
     }
     if (accel_scale_ != 1.0) {
-      info_.notes.push_back("the IMU measures in g: accelerations are multiplied by 9.80665");
+      info_.notes.emplace_back("the IMU measures in g: accelerations are multiplied by 9.80665");
     }
     inspect_first_cloud(lidar);
     view_.addQuery(bag_, rosbag::TopicQuery(std::vector<std::string>{lidar, imu}));

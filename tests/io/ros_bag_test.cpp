@@ -8,12 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "io/damage.hpp"
 #include "io/file.hpp"
 #include "io/ros_bag_writer.hpp"
 #include "io/sequence_reader.hpp"
 #include "io/temporary_folder.hpp"
-#include "support/rng.hpp"
 
 namespace nvm::io {
 namespace {
@@ -197,13 +195,6 @@ TEST_F(RosBag, TruncatedBagsAreAnError) {
     const std::string file = write("cut.bag", whole.substr(0, size));
     EXPECT_THAT(runtime_error_of([&] { read_all(file); }), HasSubstr("cut.bag: ")) << size;
   }
-}
-
-TEST_F(RosBag, DamagedBagsNeverDoMoreThanThrow) {
-  auto rng = test::rng();
-  const std::string whole = read_file(write_bag(CloudMessageType::kPointCloud2, 1000.1));
-  test::read_damaged(
-      whole, rng, [&](const std::string& bytes) { read_all(write("bad.bag", bytes)); }, 200);
 }
 
 #endif
