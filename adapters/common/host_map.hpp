@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <optional>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -87,12 +87,13 @@ class HostMap {
         options_.normals.missing == MissingNormal::kDrop) {
       return 0;
     }
-    const Eigen::Vector3d p_grid = point.array() + options_.grid_offset;
-    std::size_t count = gated ? map_->nearest(p_grid, normal, search, out, context())
-                              : map_->nearest(p_grid, search, out, context());
-    if (options_.reach > 0.0 && !is_complete(p_grid, search, out, count)) {
-      count = search_wide(p_grid, gated ? normal : Eigen::Vector3f::Zero(), search, out);
-    }
+    const std::size_t count = nearest_within_reach(
+        *map_,
+        to_grid(point),
+        gated ? normal : Eigen::Vector3f(Eigen::Vector3f::Zero()),
+        search,
+        options_.reach,
+        out);
     if (options_.grid_offset != 0.0) {
       std::for_each(out, out + count, [this](Neighbor& n) { n.position = from_grid(n.position); });
     }
@@ -111,8 +112,8 @@ class HostMap {
   }
 
   /// The map, in its grid's frame (shifted by grid_offset), or null before the first insertion.
-  VoxelMap* map() noexcept { return map_ ? &*map_ : nullptr; }
-  const VoxelMap* map() const noexcept { return map_ ? &*map_ : nullptr; }
+  VoxelMap* map() noexcept { return map_.get(); }
+  const VoxelMap* map() const noexcept { return map_.get(); }
   Eigen::Vector3d from_grid(const Eigen::Vector3d& p_grid) const noexcept {
     return p_grid.array() - options_.grid_offset;
   }
@@ -165,7 +166,7 @@ class HostMap {
     if (!map_) {
       MapOptions options = options_.map;
       options.eviction = Eviction::kLeastRecentlyUsed;  // by radius: see evict()
-      map_.emplace(options);
+      map_ = std::make_unique<VoxelMap>(options);
     }
     return *map_;
   }
@@ -206,41 +207,9 @@ class HostMap {
     return stats;
   }
 
-  bool is_complete(
-      const Eigen::Vector3d& p_grid,
-      const NearestSearch& search,
-      const Neighbor* out,
-      std::size_t count) const noexcept {
-    const double covered = covered_distance(p_grid, options_.map.voxel_size);
-    return search.max_distance <= covered ||
-           (count == search.count && out[count - 1].sq_distance <= covered * covered);
-  }
-
-  std::size_t search_wide(
-      const Eigen::Vector3d& p_grid,
-      const Eigen::Vector3f& normal,
-      const NearestSearch& search,
-      Neighbor* out) const noexcept {
-    const auto min_dot = static_cast<float>(std::cos(options_.map.max_point_angle));
-    const bool gated = !normal.isZero();
-    NearestSearch wide = search;
-    wide.max_distance = std::min(search.max_distance, options_.reach);
-    return nearest_wide(
-        *map_,
-        p_grid,
-        wide,
-        [&](const Neighbor& n) { return !gated || map_->normal(n.id).dot(normal) > min_dot; },
-        out);
-  }
-
-  static VoxelMap::QueryContext& context() noexcept {
-    thread_local VoxelMap::QueryContext context;
-    return context;
-  }
-
   HostOptions options_;
   Eigen::Vector3d view_point_ = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
-  std::optional<VoxelMap> map_;
+  std::unique_ptr<VoxelMap> map_;
 };
 
 }  // namespace nvm::adapters

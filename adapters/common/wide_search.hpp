@@ -77,4 +77,34 @@ std::size_t nearest_wide(
   }
 }
 
+/// VoxelMap::nearest, and when the 27 voxels do not settle the answer within search.max_distance,
+/// nearest_wide to at most `reach` [m]; 0: never. A zero `normal` sees both sides. Beyond the 27
+/// voxels only the normals of points are compared, not those of surfaces.
+inline std::size_t nearest_within_reach(
+    const VoxelMap& map,
+    const Eigen::Vector3d& point,
+    const Eigen::Vector3f& normal,
+    const NearestSearch& search,
+    double reach,
+    Neighbor* out) {
+  thread_local VoxelMap::QueryContext context;
+  const bool gated = !normal.isZero(0.0F);
+  const std::size_t count = gated ? map.nearest(point, normal, search, out, context)
+                                  : map.nearest(point, search, out, context);
+  const double covered = reach > 0.0 ? covered_distance(point, map.options().voxel_size) : 0.0;
+  if (std::min(reach, search.max_distance) <= covered ||
+      (count == search.count && out[count - 1].sq_distance <= covered * covered)) {
+    return count;
+  }
+  const auto min_dot = static_cast<float>(std::cos(map.options().max_point_angle));
+  NearestSearch wide = search;
+  wide.max_distance = std::min(search.max_distance, reach);
+  return nearest_wide(
+      map,
+      point,
+      wide,
+      [&](const Neighbor& n) { return !gated || map.normal(n.id).dot(normal) > min_dot; },
+      out);
+}
+
 }  // namespace nvm::adapters
