@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+// Takes the place of kiss_icp/core/VoxelHashMap.hpp. docs/adapters/kiss_icp.md
+#include <sophus/se3.hpp>
+
+#include "adapters/kiss_icp/kiss_map.hpp"
+
+namespace kiss_icp {
+
+struct VoxelHashMap : nvm::adapters::KissMap<Sophus::SE3d> {
+  using KissMap::KissMap;
+};
+
+}  // namespace kiss_icp
