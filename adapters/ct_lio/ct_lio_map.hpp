@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/StdVector>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "adapters/common/host_map.hpp"
+
+namespace nvm::adapters {
+
+/// An nvm map for ct-lio and the released II-NVM, in place of their `voxelHashMap` and of the
+/// bodies that search it, fill it and evict from it. docs/adapters/ct_lio.md says what to change.
+///
+/// Defaults: normals are given; points without one are dropped, as the paper has it, and queries
+/// without one find nothing. With set_view_point(), MissingNormal::kViewDirection and the
+/// functions without normals, it tells sides by the direction to the sensor.
+///
+/// search() may run from many threads at once, every other member needs the map for itself.
+class CtLioMap {
+ public:
+  using Points = std::vector<Eigen::Vector3d, Eigen::aligned_allocator<Eigen::Vector3d>>;
+
+  /// Costs nothing before the first add().
+  CtLioMap() { map_.configure(defaults()); }
+  /// Throws std::invalid_argument when the options are out of range.
+  explicit CtLioMap(const HostOptions& options) { map_.configure(options); }
+
+  /// Two sides, normals in the points, points without one dropped.
+  static HostOptions defaults() {
+    HostOptions options;
+    options.normals = {NormalSource::kPoint, NormalSource::kPoint, MissingNormal::kDrop};
+    return options;
+  }
+  /// The host's own map, for comparisons; lengths [m] as the host's options have them. The host
+  /// truncates indices toward zero, which makes the voxels at the axes planes twice as wide; here
+  /// all are alike.
+  static HostOptions transparent(
+      double voxel_size, double min_distance, int max_num_points_in_voxel) {
+    HostOptions options = transparent_options(voxel_size);
+    options.map.min_point_distance = min_distance;
+    options.map.points_per_surface = max_num_points_in_voxel;
+    return options;
+  }
+
+  /// Empties the map and changes its options; throws as the constructor.
+  void configure(const HostOptions& options) { map_.configure(options); }
+  const HostMap& map() const noexcept { return map_; }
+  /// Where the sensor is, map frame [m]: before add() and search(), for view directions.
+  void set_view_point(const Eigen::Vector3d& p_map_sensor) { map_.set_view_point(p_map_sensor); }
+  /// One line when the voxels are too small for points `spacing` [m] apart; else empty.
+  std::string density_warning(double spacing) const {
+    return adapters::density_warning(map_.options().map.voxel_size, spacing, 20);
+  }
+
+  /// The up to `count` (at most 64) nearest points, nearest first, that agree with `normal`, all in
+  /// the map frame. `ring` 1 looks into 27 voxels, 2 into 125 as the hosts do in their first
+  /// frames; beyond 27 only the normals of points are compared. A `normal` that is not a unit
+  /// vector stands for none.
+  Points search(
+      const Eigen::Vector3d& point, const Eigen::Vector3d& normal, int count, int ring = 1) const {
+    std::array<Neighbor, kMaxNeighbors> found;
+    const auto wanted = static_cast<std::size_t>(std::clamp<int>(count, 0, kMaxNeighbors));
+    const Eigen::Vector3f gate = normal.cast<float>();
+    const std::size_t size = ring > 1 ? search_rings(point, gate, wanted, ring, found.data())
+                                      : search_near(point, gate, wanted, found.data());
+    Points points(size);
+    std::transform(found.begin(), found.begin() + size, points.begin(), [](const Neighbor& n) {
+      return n.position;
+    });
+    return points;
+  }
+  /// The same along the direction to the view point.
+  Points search(const Eigen::Vector3d& point, int count, int ring = 1) const {
+    return search(point, map_.query_normal(point).cast<double>(), count, ring);
+  }
+
+  /// Adds all points of a scan at once; points and normals are ranges of equal length, map frame.
+  template <class Range, class Normals>
+  InsertStats add(const Range& points, const Normals& normals) {
+    return map_.insert(points, normals);
+  }
+  /// The same with the directions to the view point.
+  template <class Range>
+  InsertStats add(const Range& points) {
+    return map_.insert(points);
+  }
+
+  /// Drops the voxels whose centre is farther than `radius` [m] from `center`; returns the number
+  /// of points. The map bounds itself: with least-recently-used eviction this need not be called.
+  std::size_t evict_beyond(const Eigen::Vector3d& center, double radius) {
+    return map_.map() == nullptr ? 0 : map_.map()->erase_voxels_beyond(center, radius);
+  }
+
+  std::size_t size() const noexcept { return map_.size(); }
+
+ private:
+  static constexpr double kAnyDistance = 1e6;
+
+  std::size_t search_near(
+      const Eigen::Vector3d& point,
+      const Eigen::Vector3f& normal,
+      std::size_t wanted,
+      Neighbor* out) const noexcept {
+    return map_.nearest(point, normal, {wanted, kAnyDistance, Gate::kSurfaces}, out);
+  }
+
+  std::size_t search_rings(
+      const Eigen::Vector3d& point,
+      const Eigen::Vector3f& normal,
+      std::size_t wanted,
+      int ring,
+      Neighbor* out) const noexcept {
+    const bool gated = is_unit_normal(normal);
+    const HostOptions& options = map_.options();
+    const bool refuses = !gated && options.normals.query != NormalSource::kNone &&
+                         options.normals.missing == MissingNormal::kDrop;
+    if (map_.map() == nullptr || refuses) {
+      return 0;
+    }
+    const double size = options.map.voxel_size;
+    const auto min_dot = static_cast<float>(std::cos(options.map.max_point_angle));
+    const Eigen::Array3d center = (point.array() / size).floor();
+    const auto accepts = [&](const Neighbor& n) {
+      const Eigen::Array3d apart = ((n.position.array() / size).floor() - center).abs();
+      return apart.maxCoeff() <= ring && (!gated || map_.map()->normal(n.id).dot(normal) > min_dot);
+    };
+    const NearestSearch search{wanted, (ring + 1) * std::sqrt(3.0) * size, Gate::kPoints};
+    return nearest_wide(*map_.map(), point, search, accepts, out);
+  }
+
+  HostMap map_;
+};
+
+}  // namespace nvm::adapters
