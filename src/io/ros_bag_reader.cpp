@@ -54,6 +54,7 @@ std::vector<std::string> topics_of(const rosbag::Bag& bag, bool (*accepts)(const
   }
   std::sort(found.begin(), found.end());
   std::vector<std::string> topics;
+  topics.reserve(found.size());
   for (auto& [id, topic] : found) {
     topics.push_back(std::move(topic));
   }
