@@ -28,6 +28,8 @@ struct BoxRegion {
     const Eigen::Array3d low = voxel.cast<double>().array() * edge;
     return (low + edge >= min.array()).all() && (low <= max.array()).all();
   }
+  Eigen::Vector3d middle() const { return 0.5 * (min + max); }
+  double extent() const { return 0.5 * (max - min).norm(); }
 };
 
 /// The points at most `radius` [m] from `center`.
@@ -41,6 +43,8 @@ struct BallRegion {
   bool may_touch(const Lattice& lattice, const VoxelIndex& voxel) const {
     return sq_distance_to_voxels(lattice, center, voxel, voxel) <= radius * radius * (1.0 + 1e-9);
   }
+  Eigen::Vector3d middle() const { return center; }
+  double extent() const { return radius; }
 };
 
 /// Keeps of the surface at `head` only the points outside `region`. Head of what is left, or kNone.
@@ -101,15 +105,20 @@ void erase_from_voxel(
   }
 }
 
+/// Looks only at the bricks within the region's extent [m] of its middle, so that erasing a little
+/// costs little.
 template <class Region>
 void erase_region(VoxelStorage& storage, const Lattice& lattice, const Region& region) {
-  for (std::uint32_t brick = 0; brick < storage.brick_high_water(); ++brick) {
-    storage.visit_brick(brick, [&](std::uint32_t front, const VoxelIndex& index) {
-      if (region.may_touch(lattice, index)) {
-        erase_from_voxel(storage, lattice, front, region);
-      }
-    });
-  }
+  const double margin = 1e-9 * (1.0 + region.extent());
+  storage.for_each_voxel_near(
+      lattice,
+      region.middle(),
+      region.extent() + margin,
+      [&](std::uint32_t front, const VoxelIndex& index) {
+        if (region.may_touch(lattice, index)) {
+          erase_from_voxel(storage, lattice, front, region);
+        }
+      });
 }
 
 inline void erase_voxels_beyond(
