@@ -3,10 +3,10 @@
 # Copyright (c) 2026 The nvm authors
 """Draws the floor plan of a sequence folder: solids, thin walls and the true trajectory.
 
-usage: plot_scene.py FOLDER PICTURE.png [--height 1.3]
+usage: plot_scene.py FOLDER PICTURE.png [--floor 0] [--height 1.3]
 
-The plan is cut at --height [m] above the floor of the world: solids that reach it are dark, lower
-ones light, listed thin walls red.
+The plan is cut at --height above --floor [m]: solids that reach the cut are dark, lower ones light,
+listed thin walls red.
 """
 
 import argparse
@@ -47,21 +47,19 @@ def outline(solid):
     return Polygon([corner[:2] for corner in corners]), center[2] - half, center[2] + half
 
 
-def draw_solids(axes, scene, height):
-    walls = {(tuple(face["center"])) for wall in scene["walls"] for face in wall["faces"]}
+def draw_solids(axes, scene, floor, height):
     listed = [np.mean([face["center"] for face in wall["faces"]], axis=0) for wall in scene["walls"]]
-    del walls
     for solid in scene["primitives"]:
         if solid["type"] == "mesh":
             vertices = np.array(solid["vertices"])
             axes.triplot(vertices[:, 0], vertices[:, 1], solid["triangles"], color="0.6", lw=0.3)
             continue
         patch, bottom, top = outline(solid)
-        if top < 0.02 or bottom > height:
-            continue  # floors, ceilings and what hangs above the cut
+        if top < floor + 0.02 or bottom > floor + height:
+            continue  # floors, and what hangs above the cut
         center = np.array(solid["pose"]["translation"])
         is_listed = any(np.linalg.norm(center - wall) < 1e-6 for wall in listed)
-        is_cut = top > height
+        is_cut = top > floor + height
         patch.set(
             facecolor="tab:red" if is_listed else "0.35" if is_cut else "0.8",
             edgecolor="tab:red" if is_listed else "0.3",
@@ -71,26 +69,26 @@ def draw_solids(axes, scene, height):
         axes.add_patch(patch)
 
 
-def draw_trajectory(axes, folder):
-    poses = np.loadtxt(folder / "groundtruth.tum")[::10]
+def draw_trajectory(axes, poses):
     axes.plot(poses[:, 1], poses[:, 2], color="tab:blue", lw=1, zorder=4)
     axes.plot(*poses[0, 1:3], "o", color="tab:green", ms=5, zorder=5)
     for pose in poses[::50]:
         heading = rotation(pose[4:8])[:2, 0] * 0.4
         axes.arrow(*pose[1:3], *heading, width=0.03, color="tab:blue", zorder=4)
-    return poses
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("picture", type=pathlib.Path)
-    parser.add_argument("--height", type=float, default=1.3, help="of the cut [m]")
+    parser.add_argument("--floor", type=float, default=0.0, help="of the storey to draw [m]")
+    parser.add_argument("--height", type=float, default=1.3, help="of the cut above it [m]")
     arguments = parser.parse_args()
     scene = json.loads((arguments.folder / "scene.json").read_text())
     figure, axes = plt.subplots(figsize=(8, 6), layout="constrained")
-    draw_solids(axes, scene, arguments.height)
-    poses = draw_trajectory(axes, arguments.folder)
+    draw_solids(axes, scene, arguments.floor, arguments.height)
+    poses = np.loadtxt(arguments.folder / "groundtruth.tum")[::10]
+    draw_trajectory(axes, poses)
     length = np.linalg.norm(np.diff(poses[:, 1:4], axis=0), axis=1).sum()
     axes.set(
         aspect="equal",
@@ -99,7 +97,7 @@ def main():
         ylabel="y [m]",
     )
     axes.autoscale_view()
-    figure.savefig(arguments.picture, dpi=90)
+    figure.savefig(arguments.picture, dpi=90, bbox_inches="tight")
 
 
 if __name__ == "__main__":
