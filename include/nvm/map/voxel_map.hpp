@@ -252,43 +252,34 @@ class VoxelMap {
       return 0;
     }
     const std::int32_t limit = lattice_.sq_steps(search.max_distance) + 1;
-    const std::int32_t guess = context.guess(wanted, limit);
     const std::uint32_t brick =
         context.find_brick(storage_, detail::index_key(detail::brick_index(point.voxel)));
     const detail::NearestQuery<Gate> query(storage_, point, gate);
     detail::Candidates found;
-    query.collect(brick, guess, wanted, found);
-    if (found.count() < wanted && guess < limit) {
-      query.collect(brick, limit, wanted, found);
+    for (std::int32_t reach = context.guess(wanted, limit);; reach = limit) {
+      query.collect(brick, reach, wanted, found);
+      if (found.count() >= wanted || reach == limit) {
+        break;
+      }
     }
     std::array<std::uint8_t, kMaxNeighbors> order;
     const int count = found.nearest(wanted, order.data());
     const auto last = static_cast<std::size_t>(std::max(count, 1) - 1);
     context.learn(wanted, count == wanted ? found.sq_distance(order[last]) : limit);
+    const detail::WrappedPoint from = detail::wrap(point);
+    const Eigen::Vector3d origin = lattice_.steps(point);
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-      out[i] = answer(point, found, order[i]);
+      const PointId id = found.id(order[i]);
+      const detail::PointChunk& chunk = storage_.chunk(id / detail::kLanes);
+      storage_.recency().use(chunk.voxel);
+      const Eigen::Vector3i offset =
+          detail::difference(chunk.wrapped(static_cast<int>(id % detail::kLanes)), from);
+      out[i] = {
+          (origin + offset.cast<double>()) * lattice_.meters_per_step(),
+          lattice_.sq_meters(found.sq_distance(order[i])),
+          id};
     }
     return static_cast<std::size_t>(count);
-  }
-
-  /// Makes a neighbour of a candidate and marks its voxel as used.
-  Neighbor answer(const detail::LatticePoint& query, const detail::Candidates& found, int index)
-      const noexcept {
-    const PointId id = found.id(index);
-    const detail::PointChunk& chunk = storage_.chunk(id / detail::kLanes);
-    storage_.recency().use(chunk.voxel);
-    const detail::WrappedPoint stored = chunk.wrapped(static_cast<int>(id % detail::kLanes));
-    const detail::WrappedPoint from = detail::wrap(query);
-    const auto difference = [](std::int16_t a, std::int16_t b) {
-      return static_cast<std::int16_t>(
-          static_cast<std::uint16_t>(a) - static_cast<std::uint16_t>(b));
-    };
-    const Eigen::Vector3i offset(
-        difference(stored.x, from.x), difference(stored.y, from.y), difference(stored.z, from.z));
-    return {
-        lattice_.position(query.voxel, query.step + offset),
-        lattice_.sq_meters(found.sq_distance(index)),
-        id};
   }
 
   template <class Region>

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <numeric>
 
 #include "nvm/map/neighbor.hpp"
 #include "nvm/map/storage/lanes.hpp"
@@ -40,11 +41,11 @@ class Candidates {
     if (count_ > kMaxRanked) {
       keep_nearest(wanted);
     }
-    const int ranked = count_;
-    std::array<std::uint8_t, kMaxRanked> by_rank;
-    rank_all(by_rank);
-    const int found = std::min(ranked, wanted);
-    std::memcpy(order, by_rank.data(), static_cast<std::size_t>(found));
+    const int found = std::min(count_, wanted);
+    if (!rank(found, order)) {
+      keep_nearest(wanted);
+      std::iota(order, order + found, std::uint8_t{0});
+    }
     return found;
   }
 
@@ -71,48 +72,47 @@ class Candidates {
  private:
   static constexpr int kMaxRanked = static_cast<int>(kMaxNeighbors);
 
-  /// by_rank[r] = index of the candidate that r others precede. Counting them needs no branch that
-  /// could be mispredicted, which beats a heap for the 8 to 64 candidates of a query.
-  void rank_all(std::array<std::uint8_t, kMaxRanked>& by_rank) noexcept {
+  /// order[r] = index of the candidate with r nearer ones, for r < found. Counting them needs no
+  /// branch that could be mispredicted, which beats a heap for the 8 to 64 candidates of a query.
+  /// False when some are equally near: they would have the same rank.
+  bool rank(int found, std::uint8_t* order) noexcept {
     const int blocks = (count_ + kLanes - 1) / kLanes;
     for (int i = count_; i < blocks * kLanes; ++i) {
       sq_distances_[i] = std::numeric_limits<std::int32_t>::max();
     }
-    for (int block = 0; block < blocks; ++block) {
-      IntLanes ranks;
-      rank_block(block, ranks);
-      const int lanes = std::min(kLanes, count_ - block * kLanes);
+    constexpr std::uint8_t kNobody = 0xff;
+    std::array<std::uint8_t, kMaxRanked> by_rank;
+    by_rank.fill(kNobody);
+    for (int block = 0; block < blocks; block += 2) {
+      alignas(32) std::array<std::int32_t, 2 * kLanes> ranks;
+      rank_two_blocks(block, ranks.data());
+      const int lanes = std::min(2 * kLanes, count_ - block * kLanes);
       for (int lane = 0; lane < lanes; ++lane) {
-        by_rank[static_cast<std::size_t>(ranks[lane])] =
-            static_cast<std::uint8_t>(block * kLanes + lane);
+        const auto place = static_cast<std::size_t>(ranks[static_cast<std::size_t>(lane)]);
+        by_rank[place] = static_cast<std::uint8_t>(block * kLanes + lane);
       }
     }
+    std::copy_n(by_rank.begin(), found, order);
+    return std::find(order, order + found, kNobody) == order + found;
   }
 
-  [[gnu::always_inline]] void rank_block(int block, IntLanes& ranks) const noexcept {
-    // A candidate met earlier precedes when it is not farther; one met later only when it is
-    // nearer.
-    static constexpr std::int32_t kEarlier[2 * kLanes] = {
-        0, 0, 0, 0, 0, 0, 0, 0, -1, -1, -1, -1, -1, -1, -1, -1};
-    IntLanes values;
-    std::memcpy(&values, &sq_distances_[block * kLanes], sizeof(values));
-    ranks = IntLanes{};
-    const int begin = block * kLanes;
-    const int end = std::min(begin + kLanes, count_);
-    for (int other = 0; other < begin; ++other) {
-      ranks -= values > IntLanes{} + (sq_distances_[other] - 1);
+  [[gnu::always_inline]] void rank_two_blocks(int block, std::int32_t* ranks) const noexcept {
+    IntLanes low;
+    IntLanes high;
+    std::memcpy(&low, &sq_distances_[block * kLanes], sizeof(low));
+    std::memcpy(&high, &sq_distances_[(block + 1) * kLanes], sizeof(high));
+    IntLanes low_ranks{};
+    IntLanes high_ranks{};
+    for (int other = 0; other < count_; ++other) {
+      const IntLanes distance = IntLanes{} + sq_distances_[other];
+      low_ranks -= low > distance;
+      high_ranks -= high > distance;
     }
-    for (int other = begin; other < end; ++other) {
-      IntLanes earlier;  // -1 in the lanes behind `other`
-      std::memcpy(&earlier, &kEarlier[kLanes - 1 - (other - begin)], sizeof(earlier));
-      ranks -= values > earlier + sq_distances_[other];
-    }
-    for (int other = end; other < count_; ++other) {
-      ranks -= values > IntLanes{} + sq_distances_[other];
-    }
+    std::memcpy(ranks, &low_ranks, sizeof(low_ranks));
+    std::memcpy(ranks + kLanes, &high_ranks, sizeof(high_ranks));
   }
 
-  alignas(32) std::int32_t sq_distances_[kRoom + kLanes];
+  alignas(32) std::int32_t sq_distances_[kRoom + 2 * kLanes];
   alignas(32) PointId ids_[kRoom + kLanes];
   int count_ = 0;
 };

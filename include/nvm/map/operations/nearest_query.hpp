@@ -100,7 +100,7 @@ class NearestQuery {
 
   /// Fills `found` with the points whose squared distance is below `limit`; of those only the
   /// `wanted` nearest need to be there. `brick` is the brick of the query's voxel, or kNone.
-  void collect(
+  [[gnu::always_inline]] void collect(
       std::uint32_t brick, std::int32_t limit, int wanted, Candidates& found) const noexcept {
     found.clear();
     const AxisWindow& x = window(0, limit);
@@ -136,7 +136,7 @@ class NearestQuery {
     return offset.isZero() ? kNone : storage_.find_brick(index_key(brick_index(voxel_) + offset));
   }
 
-  void collect_brick(
+  [[gnu::always_inline]] void collect_brick(
       const Brick& brick,
       const VoxelIndex& offset,
       std::uint64_t cells,
@@ -160,7 +160,7 @@ class NearestQuery {
     }
   }
 
-  void collect_voxel(
+  [[gnu::always_inline]] void collect_voxel(
       std::uint32_t head, int wanted, std::int32_t& limit, Candidates& found) const noexcept {
     for (; head != kNone; head = storage_.chunk(head).next_surface) {
       const PointChunk& surface = storage_.chunk(head);
@@ -170,7 +170,7 @@ class NearestQuery {
     }
   }
 
-  void collect_surface(
+  [[gnu::always_inline]] void collect_surface(
       std::uint32_t head,
       const PointChunk& surface,
       int wanted,

@@ -79,10 +79,13 @@ class Lattice {
     return LatticeStatus::kInside;
   }
 
-  /// The middle of the lattice cell [m].
+  /// The middle of a lattice cell, in steps from the origin.
+  static Eigen::Vector3d steps(const LatticePoint& point) noexcept {
+    return (point.voxel.cast<double>() * kStepsPerVoxel + point.step.cast<double>()).array() + 0.5;
+  }
+  /// The middle of a lattice cell [m].
   Eigen::Vector3d position(const VoxelIndex& voxel, const Eigen::Vector3i& step) const noexcept {
-    return ((voxel.cast<double>() * kStepsPerVoxel + step.cast<double>()).array() + 0.5) *
-           meters_per_step_;
+    return steps({voxel, step}) * meters_per_step_;
   }
 
   double meters_per_step() const noexcept { return meters_per_step_; }
@@ -109,6 +112,14 @@ inline WrappedPoint wrap(const LatticePoint& point) {
       wrap(point.voxel.x(), point.step.x()),
       wrap(point.voxel.y(), point.step.y()),
       wrap(point.voxel.z(), point.step.z())};
+}
+
+/// From `b` to `a` in steps; right when they are less than 4 voxels apart in each axis.
+inline Eigen::Vector3i difference(const WrappedPoint& a, const WrappedPoint& b) {
+  const auto wrapped = [](std::int16_t left, std::int16_t right) {
+    return static_cast<std::int16_t>(left - right);
+  };
+  return {wrapped(a.x, b.x), wrapped(a.y, b.y), wrapped(a.z, b.z)};
 }
 
 /// The steps inside its voxel of a stored coordinate.
