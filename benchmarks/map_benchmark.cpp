@@ -10,8 +10,8 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstddef>
+#include <ctime>
 #include <memory>
 #include <nanoflann.hpp>
 #include <random>
@@ -22,6 +22,7 @@
 #include "nvm/map/voxel_map.hpp"
 #include "support/corridor.hpp"
 #include "support/hash_of_vectors_map.hpp"
+#include "support/wall_field.hpp"
 
 #ifdef NVM_BENCHMARK_SMALL_GICP
 #include <small_gicp/ann/incremental_voxelmap.hpp>
@@ -315,6 +316,50 @@ void insert_evicting(benchmark::State& state) {
       benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
+double random_query_ns(const VoxelMap& map, std::size_t patches) {
+  constexpr std::size_t kQueries = 100'000;
+  std::mt19937_64 rng(3);
+  std::vector<Query> asked;
+  while (asked.size() < kQueries) {
+    const WallField::Patch patch = WallField::patch(rng() % patches);
+    for (std::size_t i = 0; i < kQueries / 100; ++i) {
+      const std::size_t at = rng() % patch.points.size();
+      asked.push_back({patch.points[at] + Eigen::Vector3d(0.02, 0.01, 0.03), patch.normals[at]});
+    }
+  }
+  std::shuffle(asked.begin(), asked.end(), rng);
+  VoxelMap::QueryContext context;
+  std::array<Neighbor, kMaxNeighbors> found;
+  const std::clock_t begin = std::clock();
+  for (const Query& query : asked) {
+    benchmark::DoNotOptimize(
+        map.nearest(query.point, query.normal, {5, 1.0, Gate::kSurfaces}, found.data(), context));
+  }
+  return 1e9 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC / kQueries;
+}
+
+/// grow/<points>: a map grows in patches of 24 000 new points; the slowest patch, and 5 gated
+/// neighbours in random order once it is as large.
+void grow(benchmark::State& state) {
+  const auto patches = static_cast<std::size_t>(state.range(0)) / WallField::kPatch + 1;
+  MapOptions options = nvm_options();
+  options.capacity = static_cast<std::size_t>(state.range(0));
+  for (auto _ : state) {
+    VoxelMap map(options);
+    double worst_ms = 0.0;
+    for (std::size_t i = 0; i < patches; ++i) {
+      const WallField::Patch patch = WallField::patch(i);
+      const std::clock_t begin = std::clock();
+      map.insert(patch.points, patch.normals);
+      const double elapsed_ms = 1e3 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+      worst_ms = std::max(worst_ms, elapsed_ms);
+    }
+    state.counters["worst_patch_ms"] = worst_ms;
+    state.counters["points"] = static_cast<double>(map.size());
+    state.counters["query5_ns"] = random_query_ns(map, patches);
+  }
+}
+
 void memory(benchmark::State& state) {
   const VoxelMap& map = walked<Nvm>().map;
   for (auto _ : state) {
@@ -357,6 +402,12 @@ BENCHMARK_TEMPLATE(insert_raw, SmallGicp)->Unit(benchmark::kMillisecond);
 BENCHMARK_TEMPLATE(insert_new, SmallGicp)->Unit(benchmark::kMillisecond);
 #endif
 BENCHMARK(insert_evicting)->Arg(5000)->Arg(1000000)->Unit(benchmark::kMillisecond);
+BENCHMARK(grow)
+    ->Arg(10'000)
+    ->Arg(1'000'000)
+    ->Arg(10'000'000)
+    ->Iterations(1)
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK(memory);
 BENCHMARK(save)->Unit(benchmark::kMillisecond);
 BENCHMARK(load)->Unit(benchmark::kMillisecond);
