@@ -68,8 +68,8 @@ def figures(records: dict, instructions) -> dict:
         "insert_new_ratio_kiss": ratio(records, "insert_new<KissStyle>", "insert_new<Nvm>", per_point),
         "insert_worst_scan_ms": median(records.get("grow/10000000", []), "worst_patch_ms"),
         "bytes_per_point": median(records.get("memory", []), "bytes_per_point"),
-        "normals_radius_ratio_pcl": ratio(records, "normals_pcl_radius/0", "normals_fixed/0"),
-        "normals_adaptive_ratio_nanoflann": ratio(records, "normals_nanoflann_adaptive/0", "normals_adaptive/0"),
+        "normals_radius_ratio_pcl": ratio(records, "pcl_baseline/0", "estimate/fixed_block_tree/0"),
+        "normals_adaptive_ratio_nanoflann": ratio(records, "nanoflann_baseline/adaptive/0", "estimate/adaptive_block_tree/0"),
         "query_growth_1e4_1e7": ratio(records, "grow/10000000", "grow/10000", "query5_ns"),
     }
 

@@ -15,7 +15,7 @@ packages=(
   libassimp-dev libceres-dev libcli11-dev libembree-dev libfmt-dev libspdlog-dev libtbb-dev
   libyaml-cpp-dev nlohmann-json3-dev librosbag-storage-dev libsensor-msgs-dev
   # tests and benchmarks
-  libbenchmark-dev libgmock-dev libgtest-dev
+  libbenchmark-dev libgmock-dev libgtest-dev robin-map-dev
   # plots, converters, the comparison with evo
   python3 python3-venv
 )
