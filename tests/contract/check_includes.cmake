@@ -37,6 +37,7 @@ foreach(layer IN LISTS layers)
       file(STRINGS ${root}/${file} includes REGEX "^#include ")
       foreach(include IN LISTS includes)
         if(include MATCHES "\"(nvm/)?([a-z_]+)/"
+           AND CMAKE_MATCH_2 IN_LIST layers
            AND NOT CMAKE_MATCH_2 IN_LIST below_${layer}
            AND NOT CMAKE_MATCH_2 STREQUAL layer)
           list(APPEND problems "${file}: ${include} (${layer} is not above ${CMAKE_MATCH_2})")

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include "eval/evaluation.hpp"
+#include "io/sequence_reader.hpp"
+#include "lio/pipeline_options.hpp"
+#include "sim/simulation.hpp"
+
+// One function of each compiled component: the linker has to find all that they need.
+auto* volatile evaluate_run = &nvm::eval::evaluate_run;
+auto* volatile open_sequence = &nvm::io::open_sequence;
+auto* volatile resolve = &nvm::lio::resolve;
+auto* volatile simulate = &nvm::sim::simulate;
