@@ -12,7 +12,7 @@ packages=(
   # the core
   libeigen3-dev libnanoflann-dev
   # the compiled components and the nvm program
-  libassimp-dev libceres-dev libcli11-dev libembree-dev libfmt-dev libspdlog-dev libtbb-dev
+  libassimp-dev libcli11-dev libembree-dev libfmt-dev libtbb-dev
   libyaml-cpp-dev nlohmann-json3-dev librosbag-storage-dev libsensor-msgs-dev
   # tests and benchmarks
   libbenchmark-dev libgmock-dev libgtest-dev robin-map-dev
