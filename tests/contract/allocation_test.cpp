@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "nvm/map/voxel_map.hpp"
+#include "nvm/normal/normal_estimator.hpp"
 #include "support/rng.hpp"
 
 namespace {
@@ -112,6 +113,19 @@ TEST(Contract, AFullMapAllocatesNothing) {
   insert_along_path(0.0, 50.0);
   ASSERT_EQ(map.voxel_count(), options.capacity);
   EXPECT_EQ(insert_along_path(50.0, 100.0), 0U);
+}
+
+TEST(Contract, AnEstimatorAllocatesNothingAfterTheFirstScan) {
+  auto random = rng();
+  const Cloud cloud = random_cloud(20'000, Eigen::Vector3d(3.0, 0.0, 0.0), random);
+  for (const NormalMethod method : {NormalMethod::kBlockTree, NormalMethod::kPerCell}) {
+    NormalOptions options;
+    options.method = method;
+    NormalEstimator estimator(options);
+    const Eigen::Vector3d viewpoint(0.0, 0.0, 0.0);
+    estimator.estimate(cloud.points, viewpoint);
+    EXPECT_EQ(allocations_in([&] { estimator.estimate(cloud.points, viewpoint); }), 0U);
+  }
 }
 
 }  // namespace

@@ -14,7 +14,7 @@
 #include "nvm/normal/block_search.hpp"
 #include "nvm/normal/block_tree.hpp"
 #include "nvm/normal/kd_tree_search.hpp"
-#include "nvm/normal/spatial_order.hpp"
+#include "nvm/normal/spatial_sorter.hpp"
 #include "support/rng.hpp"
 
 namespace nvm::detail {
@@ -123,21 +123,18 @@ class Neighborhood : public ::testing::TestWithParam<Input> {
  protected:
   Neighborhood() : rng_(test::rng()), points_(GetParam().make(rng_)) {
     const std::vector<NormalStatus> status(points_.x.size(), NormalStatus::kValid);
-    order_.sort(points_, status, GetParam().resolution);
+    SpatialSorter().sort(points_, status, GetParam().resolution, sorted_);
   }
 
   template <class Search>
   void expect_brute_force(const Search& search) const {
-    for (std::size_t block = 0; block < order_.block_count(); ++block) {
-      const QueryBlock query(order_, block);
-      BlockMoments sums{};
+    for (std::size_t block = 0; block < QueryBlock::count(sorted_); ++block) {
+      const QueryBlock query(sorted_, block);
+      Moments<FloatLanes> sums;
       search(query, sums);
-      for (std::size_t i = 0; i < query.size; ++i) {
-        const std::uint32_t point = order_.index[block * kBlockSize + i];
-        expect_equal(
-            lane(sums[i / kLaneCount], i % kLaneCount),
-            brute_force(points_, point),
-            points_.sq_radius[point]);
+      for (std::size_t i = 0; i < query.end - query.begin; ++i) {
+        const std::uint32_t point = sorted_.index[query.begin + i];
+        expect_equal(lane(sums, i), brute_force(points_, point), points_.sq_radius[point]);
       }
     }
   }
@@ -154,26 +151,26 @@ class Neighborhood : public ::testing::TestWithParam<Input> {
 
   Rng rng_;
   LocalPoints points_;
-  SpatialOrder order_;
+  SortedPoints sorted_;
 };
 
 TEST_P(Neighborhood, OfTheBlockTreeIsThatOfBruteForce) {
   BlockTree tree;
-  tree.build(order_, SerialExecutor());
-  expect_brute_force(BlockSearch(order_, tree));
+  tree.build(PointItems{sorted_}, SerialExecutor());
+  expect_brute_force(BlockSearch(PointItems{sorted_}, tree));
 }
 
-TEST_P(Neighborhood, OfTheKdTreeIsThatOfBruteForce) { expect_brute_force(KdTreeSearch(order_)); }
+TEST_P(Neighborhood, OfTheKdTreeIsThatOfBruteForce) { expect_brute_force(KdTreeSearch(sorted_)); }
 
 TEST_P(Neighborhood, StaysTheSameWhenTheTreeIsBuiltAgain) {
   BlockTree tree;
-  SpatialOrder other;
+  SortedPoints other;
   Rng rng = test::rng();
   const LocalPoints points = uniform(rng, 5000, 1.0, 0.1, 0.1);
-  other.sort(points, std::vector<NormalStatus>(5000, NormalStatus::kValid), 0.1);
-  tree.build(other, SerialExecutor());
-  tree.build(order_, SerialExecutor());
-  expect_brute_force(BlockSearch(order_, tree));
+  SpatialSorter().sort(points, std::vector<NormalStatus>(5000, NormalStatus::kValid), 0.1, other);
+  tree.build(PointItems{other}, SerialExecutor());
+  tree.build(PointItems{sorted_}, SerialExecutor());
+  expect_brute_force(BlockSearch(PointItems{sorted_}, tree));
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -181,19 +178,19 @@ INSTANTIATE_TEST_SUITE_P(
       return instance.param.name;
     });
 
-TEST(SpatialOrder, KeepsEveryValidPointOnce) {
+TEST(SpatialSorter, KeepsEveryValidPointOnce) {
   Rng rng = test::rng();
   const LocalPoints points = uniform(rng, 1001, 5.0, 0.1, 0.1);
   std::vector<NormalStatus> status(1001, NormalStatus::kValid);
   status[3] = status[500] = NormalStatus::kTooFar;
-  SpatialOrder order;
-  order.sort(points, status, 0.05);
-  ASSERT_EQ(order.size(), 999U);
+  SortedPoints sorted;
+  SpatialSorter().sort(points, status, 0.05, sorted);
+  ASSERT_EQ(sorted.size(), 999U);
   std::vector<bool> seen(1001, false);
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    EXPECT_FALSE(seen[order.index[i]]);
-    seen[order.index[i]] = true;
-    EXPECT_EQ(order.x[i], points.x[order.index[i]]);
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    EXPECT_FALSE(seen[sorted.index[i]]);
+    seen[sorted.index[i]] = true;
+    EXPECT_EQ(sorted.x[i], points.x[sorted.index[i]]);
   }
   EXPECT_FALSE(seen[3] || seen[500]);
 }

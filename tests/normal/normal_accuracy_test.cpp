@@ -33,30 +33,44 @@ struct Accuracy {
   double within_share() const { return static_cast<double>(within) / static_cast<double>(valid); }
 };
 
-TEST(NormalAccuracy, OfASpinningSensorIsWithinTenDegreesForNineInTen) {
+// The directions of the n-th frame of a sensor.
+using Sensor = test::Directions (*)(double frame);
+
+test::Directions vlp16(double) { return test::spinning_directions(16, 1500); }
+test::Directions mid360(double frame) { return test::non_repetitive_directions(20'000, frame); }
+
+Accuracy measure(Sensor sensor, NormalMethod method, double limit_deg) {
   std::mt19937_64 rng = test::rng();
-  NormalEstimator estimator;
+  NormalOptions options;
+  options.method = method;
+  NormalEstimator estimator(options);
   Accuracy accuracy;
   for (const double size : kRoomSizes) {
     const test::FurnishedRoom room(size, rng);
-    const test::TrueScan scan = room.scan(test::spinning_directions(16, 1500), 0.01, rng);
-    accuracy.add(scan, estimator.estimate(scan.points, Eigen::Vector3d(0, 0, 0)), 10.0);
+    const test::TrueScan scan = room.scan(sensor(size), 0.01, rng);
+    accuracy.add(scan, estimator.estimate(scan.points, Eigen::Vector3d(0, 0, 0)), limit_deg);
   }
+  return accuracy;
+}
+
+TEST(NormalAccuracy, OfASpinningSensorIsWithinTenDegreesForNineInTen) {
+  const Accuracy accuracy = measure(vlp16, NormalMethod::kBlockTree, 10.0);
   EXPECT_GE(accuracy.valid_share(), 0.6);
   EXPECT_GE(accuracy.within_share(), 0.9);
 }
 
 TEST(NormalAccuracy, OfANonRepetitiveSensorIsWithinFiveDegreesForNineInTen) {
-  std::mt19937_64 rng = test::rng();
-  NormalEstimator estimator;
-  Accuracy accuracy;
-  for (const double size : kRoomSizes) {
-    const test::FurnishedRoom room(size, rng);
-    const test::TrueScan scan = room.scan(test::non_repetitive_directions(20'000, size), 0.01, rng);
-    accuracy.add(scan, estimator.estimate(scan.points, Eigen::Vector3d(0, 0, 0)), 5.0);
-  }
+  const Accuracy accuracy = measure(mid360, NormalMethod::kBlockTree, 5.0);
   EXPECT_GE(accuracy.valid_share(), 0.6);
   EXPECT_GE(accuracy.within_share(), 0.9);
+}
+
+TEST(NormalAccuracy, PerCellIsWithinTenDegreesForNineInTen) {
+  for (const Sensor sensor : {vlp16, mid360}) {
+    const Accuracy accuracy = measure(sensor, NormalMethod::kPerCell, 10.0);
+    EXPECT_GE(accuracy.valid_share(), 0.6);
+    EXPECT_GE(accuracy.within_share(), 0.9);
+  }
 }
 
 }  // namespace

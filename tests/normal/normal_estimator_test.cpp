@@ -10,7 +10,9 @@
 #include <cstring>
 #include <limits>
 #include <random>
+#include <set>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "nvm/core/executor_openmp.hpp"
@@ -67,13 +69,32 @@ class NormalEstimation : public ::testing::TestWithParam<NormalMethod> {
   }
 };
 
+const auto method_name = [](const auto& instance) -> std::string {
+  switch (instance.param) {
+    case NormalMethod::kBlockTree:
+      return "BlockTree";
+    case NormalMethod::kKdTree:
+      return "KdTree";
+    case NormalMethod::kPerCell:
+      return "PerCell";
+  }
+  return "";
+};
+
 INSTANTIATE_TEST_SUITE_P(
     Methods,
     NormalEstimation,
+    ::testing::Values(NormalMethod::kBlockTree, NormalMethod::kKdTree, NormalMethod::kPerCell),
+    method_name);
+
+// What only the exact methods promise.
+class ExactNormalEstimation : public NormalEstimation {};
+
+INSTANTIATE_TEST_SUITE_P(
+    Methods,
+    ExactNormalEstimation,
     ::testing::Values(NormalMethod::kBlockTree, NormalMethod::kKdTree),
-    [](const auto& instance) {
-      return instance.param == NormalMethod::kBlockTree ? "BlockTree" : "KdTree";
-    });
+    method_name);
 
 TEST_P(NormalEstimation, OfAWallLooksBackAtTheViewpoint) {
   for (const double range : {2.0, -2.0}) {
@@ -110,7 +131,7 @@ TEST_P(NormalEstimation, GivesUnitNormalsWhereValidAndZeroElsewhere) {
   }
 }
 
-TEST_P(NormalEstimation, RotatesWithThePoints) {
+TEST_P(ExactNormalEstimation, RotatesWithThePoints) {
   std::mt19937_64 rng = test::rng();
   const test::TrueScan scan = room_scan(rng);
   const Eigen::Matrix3d R = Eigen::Quaterniond(0.3, -0.5, 0.7, 0.2).normalized().matrix();
@@ -128,7 +149,7 @@ TEST_P(NormalEstimation, RotatesWithThePoints) {
   EXPECT_LT(differ, rotated.size() / 200);
 }
 
-TEST_P(NormalEstimation, DoesNotDependOnWhereTheScanLies) {
+TEST_P(ExactNormalEstimation, DoesNotDependOnWhereTheScanLies) {
   std::mt19937_64 rng = test::rng();
   const test::TrueScan scan = room_scan(rng);
   const NormalResult near = estimate_normals(scan.points, Vector3d(0, 0, 0), options());
@@ -191,7 +212,7 @@ TEST_P(NormalEstimation, GivesBadPointsAStatusAndLosesNothing) {
   EXPECT_EQ(result.status[8], NormalStatus::kFewNeighbors);
 }
 
-TEST_P(NormalEstimation, TellsLinesAndVolumesFromPlanes) {
+TEST_P(ExactNormalEstimation, TellsLinesAndVolumesFromPlanes) {
   std::mt19937_64 rng = test::rng();
   std::uniform_real_distribution<double> unit(-0.2, 0.2);
   std::vector<Vector3d> line, ball, twins(30, Vector3d(2, 0, 0));
@@ -205,7 +226,7 @@ TEST_P(NormalEstimation, TellsLinesAndVolumesFromPlanes) {
   EXPECT_EQ(status_of_first({{2, 0, 0}}, fixed_radius(1.0)), NormalStatus::kFewNeighbors);
 }
 
-TEST_P(NormalEstimation, CountsThePointItselfAndThoseAtExactlyTheRadius) {
+TEST_P(ExactNormalEstimation, CountsThePointItselfAndThoseAtExactlyTheRadius) {
   // Four neighbours at exactly 0.5 m, and the point: five.
   const std::vector<Vector3d> points{
       {2, 0, 0}, {2, 0.5, 0}, {2, -0.5, 0}, {2, 0, 0.5}, {2, 0, -0.5}};
@@ -251,7 +272,7 @@ TEST_P(NormalEstimation, SurvivesViewpointsAGigametreApart) {
   EXPECT_EQ(result.stats.valid, points.size() - 2);
 }
 
-TEST_P(NormalEstimation, AtQueriesUsesTheNeighborsOfTheFullCloud) {
+TEST_P(ExactNormalEstimation, AtQueriesUsesTheNeighborsOfTheFullCloud) {
   std::mt19937_64 rng = test::rng();
   const test::TrueScan scan = room_scan(rng);
   std::vector<Vector3f> thinned;
@@ -286,6 +307,31 @@ TEST(NormalMethods, AgreeOnEveryStatusOfARoom) {
     }
   }
   EXPECT_LE(differ, 2U);
+}
+
+TEST(NormalsPerCell, AreSharedByThePointsOfACell) {
+  std::mt19937_64 rng = test::rng();
+  const test::TrueScan scan = room_scan(rng);
+  NormalOptions options;
+  options.method = NormalMethod::kPerCell;
+  const NormalResult result = estimate_normals(scan.points, Vector3d(0, 0, 0), options);
+  std::set<std::array<float, 3>> distinct;
+  for (const Vector3f& normal : result.normals) {
+    const Vector3f axis = normal.x() < 0.0F ? Vector3f(-normal) : normal;
+    distinct.insert({axis.x(), axis.y(), axis.z()});
+  }
+  EXPECT_LT(distinct.size(), result.stats.valid / 2);
+}
+
+TEST(NormalsPerCell, AreGivenAtQueriesToo) {
+  NormalOptions options;
+  options.method = NormalMethod::kPerCell;
+  NormalEstimator estimator(options);
+  const std::vector<Vector3d> queries{{2.01, 0.0, 0.0}, {2.0, 0.3, 0.1}, {9.0, 0.0, 0.0}};
+  const NormalResult& result = estimator.estimate_at(queries, wall(2.0), Vector3d(0, 0, 0));
+  EXPECT_NEAR(result.normals[0].x(), -1.0F, 1e-5F);
+  EXPECT_NEAR(result.normals[1].x(), -1.0F, 1e-5F);
+  EXPECT_EQ(result.status[2], NormalStatus::kFewNeighbors);
 }
 
 TEST(NormalsOfDenseClouds, AreBoundedInWork) {

@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <cstring>
 
-#if defined(__FMA__)
+#if defined(__SSE2__)
 #include <immintrin.h>
-#elif defined(__ARM_FEATURE_FMA) && defined(__ARM_NEON)
+#elif defined(__ARM_NEON)
 #include <arm_neon.h>
 #endif
 
@@ -28,8 +28,10 @@ inline constexpr std::size_t kLaneCount = 4;
 using FloatLanes = float __attribute__((vector_size(kLaneCount * sizeof(float))));
 using FloatLaneBits = std::int32_t __attribute__((vector_size(kLaneCount * sizeof(float))));
 
-inline FloatLanes load_lanes(const float* values) {
-  FloatLanes lanes;
+// A template, so that its name tells the width: a program may hold code for several targets.
+template <class Lanes = FloatLanes>
+Lanes load_lanes(const float* values) {
+  Lanes lanes;
   std::memcpy(&lanes, values, sizeof(lanes));
   return lanes;
 }
@@ -95,6 +97,21 @@ Real larger(const Real& a, const Real& b) {
 template <class Real>
 Real smaller(const Real& a, const Real& b) {
   return a < b ? a : b;
+}
+
+/// Bit i is set where lane i of the result of a comparison is true.
+inline std::uint32_t lane_bits(const FloatLaneBits& mask) {
+#if defined(__AVX__)
+  return static_cast<std::uint32_t>(_mm256_movemask_ps(reinterpret_cast<__m256>(mask)));
+#elif defined(__SSE2__)
+  return static_cast<std::uint32_t>(_mm_movemask_ps(reinterpret_cast<__m128>(mask)));
+#else
+  std::uint32_t bits = 0;
+  for (std::size_t lane = 0; lane < kLaneCount; ++lane) {
+    bits |= static_cast<std::uint32_t>(mask[lane] & 1) << lane;
+  }
+  return bits;
+#endif
 }
 
 namespace detail {

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <tuple>
+#include <type_traits>
 
 #include "nvm/geometry/float_lanes.hpp"
 #include "nvm/geometry/moments.hpp"
@@ -108,7 +109,7 @@ struct Deviator {
 
 template <class Real>
 Real third_of_trace(const Symmetric3<Real>& m) {
-  return (m.xx + m.yy + m.zz) / constant<Real>(3.0);
+  return (m.xx + m.yy + m.zz) * constant<Real>(1.0 / 3.0);
 }
 
 template <class Real>
@@ -125,18 +126,19 @@ Deviator<Real> deviator(const Symmetric3<Real>& m) {
   const Vector3Of<Real> diagonal{b.xx, b.yy, b.zz}, rest{b.xy, b.xz, b.yz};
   const Real half_sq_norm =
       multiply_add<Real>(constant<Real>(0.5), dot(diagonal, diagonal), dot(rest, rest));
-  const Real sq_spread = half_sq_norm / constant<Real>(3.0);
+  const Real sq_spread = half_sq_norm * constant<Real>(1.0 / 3.0);
   const Real unspread = inverse_sqrt(sq_spread);
   return {scaled(b, unspread), mean + correction, sq_spread * unspread * scale};
 }
 
 /// The largest root of x^3 - 3x - 2r for r in [0, 1]: 2 cos(acos(r)/3), by Newton's method. The
-/// start, a fitted parabola, is off by at most 1.1e-3; each step more than squares that.
+/// start, a fitted parabola, is off by at most 1.1e-3, then by 8e-7, 5e-13 and 2e-25.
 template <class Real>
 Real isolated_root(const Real& r) {
   const Real slope = multiply_add<Real>(constant<Real>(-0.0531376), r, constant<Real>(0.3191803));
   Real x = multiply_add<Real>(slope, r, constant<Real>(1.7331223));
-  for (int step = 0; step < 3; ++step) {
+  constexpr int kSteps = std::is_same_v<Real, double> ? 3 : 2;
+  for (int step = 0; step < kSteps; ++step) {
     const Real sq_x = x * x;
     x = multiply_add<Real>(x, sq_x, r) / (1.5F * (sq_x - 1.0F));
   }

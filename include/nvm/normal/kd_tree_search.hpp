@@ -7,7 +7,7 @@
 #include <nanoflann.hpp>
 
 #include "nvm/normal/query_block.hpp"
-#include "nvm/normal/spatial_order.hpp"
+#include "nvm/normal/sorted_points.hpp"
 
 namespace nvm::detail {
 
@@ -15,26 +15,25 @@ namespace nvm::detail {
 /// spec §2.2, with the same neighbours as BlockSearch. Reads only; safe from many threads.
 class KdTreeSearch {
  public:
-  explicit KdTreeSearch(const SpatialOrder& points)
+  explicit KdTreeSearch(const SortedPoints& points)
       : points_(points), view_{points}, tree_(3, view_) {}
 
-  void operator()(const QueryBlock& query, BlockMoments& sums) const {
-    for (std::size_t lane = 0; lane < query.size; ++lane) {
-      Neighborhood neighborhood(
-          points_, query.x[lane], query.y[lane], query.z[lane], query.sq_radius[lane]);
-      const float position[3] = {query.x[lane], query.y[lane], query.z[lane]};
+  void operator()(const QueryBlock& query, Moments<FloatLanes>& sums) const {
+    for (std::size_t i = query.begin; i < query.end; ++i) {
+      const float position[3] = {query.queries.x[i], query.queries.y[i], query.queries.z[i]};
+      Neighborhood neighborhood(points_, position, query.queries.sq_radius[i]);
       tree_.radiusSearchCustomCallback(position, neighborhood);
-      set_lane(sums[lane / kLaneCount], lane % kLaneCount, neighborhood.moments());
+      set_lane(sums, i - query.begin, neighborhood.moments());
     }
   }
 
  private:
   // What nanoflann asks of a data set.
   struct View {
-    const SpatialOrder& points;
+    const SortedPoints& points;
     std::size_t kdtree_get_point_count() const { return points.size(); }
     float kdtree_get_pt(std::size_t i, std::size_t axis) const {
-      return axis == 0 ? points.x[i] : axis == 1 ? points.y[i] : points.z[i];
+      return points.coordinate(axis)[i];
     }
     template <class Box>
     bool kdtree_get_bbox(Box&) const {
@@ -46,8 +45,12 @@ class KdTreeSearch {
   // way, so it is asked for a little more and the exact test is made here.
   class Neighborhood {
    public:
-    Neighborhood(const SpatialOrder& points, float x, float y, float z, float sq_radius)
-        : points_(points), x_(x), y_(y), z_(z), sq_radius_(sq_radius) {}
+    Neighborhood(const SortedPoints& points, const float (&position)[3], float sq_radius)
+        : points_(points),
+          x_(position[0]),
+          y_(position[1]),
+          z_(position[2]),
+          sq_radius_(sq_radius) {}
 
     bool addPoint(float, std::size_t i) {
       const float dx = points_.x[i] - x_, dy = points_.y[i] - y_, dz = points_.z[i] - z_;
@@ -63,7 +66,7 @@ class KdTreeSearch {
     const Moments<float>& moments() const { return moments_; }
 
    private:
-    const SpatialOrder& points_;
+    const SortedPoints& points_;
     float x_, y_, z_, sq_radius_;
     Moments<float> moments_;
   };
@@ -84,7 +87,7 @@ class KdTreeSearch {
   using Tree = nanoflann::
       KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, View>, View, 3, std::uint32_t>;
 
-  const SpatialOrder& points_;
+  const SortedPoints& points_;
   View view_;
   Tree tree_;
 };

@@ -11,12 +11,13 @@
 #include "nvm/core/require.hpp"
 #include "nvm/normal/block_search.hpp"
 #include "nvm/normal/block_tree.hpp"
+#include "nvm/normal/cell_grid.hpp"
 #include "nvm/normal/kd_tree_search.hpp"
 #include "nvm/normal/local_points.hpp"
 #include "nvm/normal/normal_options.hpp"
 #include "nvm/normal/normal_result.hpp"
 #include "nvm/normal/plane_judge.hpp"
-#include "nvm/normal/spatial_order.hpp"
+#include "nvm/normal/spatial_sorter.hpp"
 
 namespace nvm {
 
@@ -45,7 +46,12 @@ class NormalEstimator {
       const Points& points, const Viewpoints& viewpoints, const Executor& executor = {}) & {
     prepare_cloud(points, viewpoints, executor);
     result_.status = cloud_status_;
-    solve(cloud_, points.size(), executor);
+    result_.normals.assign(points.size(), Eigen::Vector3f::Zero());
+    if (options_.method == NormalMethod::kPerCell) {
+      solve_cells(executor);
+    } else {
+      solve(cloud_, result_, executor);
+    }
     finish(points, viewpoints, executor);
     return result_;
   }
@@ -62,8 +68,9 @@ class NormalEstimator {
     static_assert(is_point_v<Viewpoint>, "nvm: estimate_at() takes one viewpoint for all points");
     prepare_cloud(points, viewpoint, executor);
     localize(queries, viewpoint, position(viewpoint), result_.status, executor);
-    queries_.sort(local_, result_.status, resolution());
-    solve(queries_, queries.size(), executor);
+    sorter_.sort(local_, result_.status, sort_edge(), queries_);
+    result_.normals.assign(queries.size(), Eigen::Vector3f::Zero());
+    solve(queries_, result_, executor);
     finish(queries, viewpoint, executor);
     return result_;
   }
@@ -72,15 +79,21 @@ class NormalEstimator {
   static constexpr std::size_t kPointGrain = 4096;
   static constexpr std::size_t kBlockGrain = 32;
 
-  // Points that share a cube of this edge are close enough to share a block in any order.
-  double resolution() const { return options_.min_radius / 4.0; }
+  // Points that share a cube of half the smallest radius need no better order.
+  double sort_edge() const {
+    return options_.method == NormalMethod::kPerCell ? options_.cell_size
+                                                     : 0.5 * options_.min_radius;
+  }
 
   template <class Points, class Viewpoints, class Executor>
   void prepare_cloud(const Points& points, const Viewpoints& viewpoints, const Executor& executor) {
     localize(points, viewpoints, local_origin(viewpoints), cloud_status_, executor);
-    cloud_.sort(local_, cloud_status_, resolution());
-    if (options_.method == NormalMethod::kBlockTree) {
-      tree_.build(cloud_, executor);
+    sorter_.sort(local_, cloud_status_, sort_edge(), cloud_);
+    if (options_.method == NormalMethod::kPerCell) {
+      grid_.build(cloud_, sorter_, 1.5 * options_.cell_size);
+      tree_.build(detail::CellItems{grid_.means(), grid_.cells()}, executor);
+    } else if (options_.method == NormalMethod::kBlockTree) {
+      tree_.build(detail::PointItems{cloud_}, executor);
     }
   }
 
@@ -129,26 +142,47 @@ class NormalEstimator {
   }
 
   template <class Executor>
-  void solve(
-      const detail::SpatialOrder& queries, std::size_t result_size, const Executor& executor) {
-    result_.normals.assign(result_size, Eigen::Vector3f::Zero());
-    if (options_.method == NormalMethod::kBlockTree) {
-      solve_with(detail::BlockSearch(cloud_, tree_), queries, executor);
-    } else {
-      solve_with(detail::KdTreeSearch(cloud_), queries, executor);
+  void solve(const detail::SortedPoints& queries, NormalResult& result, const Executor& executor) {
+    switch (options_.method) {
+      case NormalMethod::kBlockTree:
+        return solve_with(
+            detail::BlockSearch(detail::PointItems{cloud_}, tree_), queries, result, executor);
+      case NormalMethod::kKdTree:
+        return solve_with(detail::KdTreeSearch(cloud_), queries, result, executor);
+      case NormalMethod::kPerCell:
+        return solve_with(
+            detail::BlockSearch(detail::CellItems{grid_.means(), grid_.cells()}, tree_),
+            queries,
+            result,
+            executor);
     }
+  }
+
+  template <class Executor>
+  void solve_cells(const Executor& executor) {
+    cell_result_.status.resize(grid_.size());
+    cell_result_.normals.resize(grid_.size());
+    solve(grid_.means(), cell_result_, executor);
+    grid_.for_each_point(cloud_, [this](std::size_t cell, std::size_t point) {
+      result_.status[point] = cell_result_.status[cell];
+      result_.normals[point] = cell_result_.normals[cell];
+    });
   }
 
   template <class Search, class Executor>
   void solve_with(
-      const Search& search, const detail::SpatialOrder& queries, const Executor& executor) {
+      const Search& search,
+      const detail::SortedPoints& queries,
+      NormalResult& result,
+      const Executor& executor) const {
     const detail::PlaneJudge judge(options_);
     executor.for_blocks(
-        queries.block_count(), kBlockGrain, [&](std::size_t begin, std::size_t end) {
+        detail::QueryBlock::count(queries), kBlockGrain, [&](std::size_t begin, std::size_t end) {
           for (std::size_t block = begin; block < end; ++block) {
-            detail::BlockMoments sums{};
-            search(detail::QueryBlock(queries, block), sums);
-            judge(sums, queries, block, result_);
+            Moments<FloatLanes> sums;
+            const detail::QueryBlock query(queries, block);
+            search(query, sums);
+            judge(query, sums, result);
           }
         });
   }
@@ -171,9 +205,11 @@ class NormalEstimator {
   NormalOptions options_;
   detail::LocalPoints local_;
   std::vector<NormalStatus> cloud_status_;
-  detail::SpatialOrder cloud_, queries_;
+  detail::SpatialSorter sorter_;
+  detail::SortedPoints cloud_, queries_;
+  detail::CellGrid grid_;
   detail::BlockTree tree_;
-  NormalResult result_;
+  NormalResult result_, cell_result_;
 };
 
 /// Normals of one scan: NormalEstimator::estimate() for callers without a stream of scans.

@@ -8,8 +8,9 @@ namespace nvm {
 
 /// How neighbourhoods are found.
 enum class NormalMethod {
-  kBlockTree,  ///< exact: blocks of eight points in spatial order, searched eight queries at a time
+  kBlockTree,  ///< exact: a tree over the sorted scan, searched for several points at once
   kKdTree,     ///< exact, the same neighbourhoods through nanoflann: the reference (spec §2.2)
+  kPerCell,    ///< the fast mode: cells of cell_size are summed up and share one normal
 };
 
 /// Configuration of a NormalEstimator. Aggregate; the estimator's constructor validates it.
@@ -33,6 +34,9 @@ struct NormalOptions {
   /// variation. Rejects corners and clutter.
   double max_surface_variation = 0.03;
   NormalMethod method = NormalMethod::kBlockTree;
+  /// With kPerCell: edge of a cell [m], 0.001 to 1000. A cell is a neighbour when its mean is
+  /// within the radius, which is 1.5 cells at least.
+  double cell_size = 0.2;
 
   /// Throws std::invalid_argument with the name, the value and the allowed range of the first bad
   /// member.
@@ -62,6 +66,7 @@ struct NormalOptions {
         "max_surface_variation",
         max_surface_variation,
         "above 0 to 1/3");
+    require(cell_size >= 0.001 && cell_size <= 1000.0, "cell_size", cell_size, "0.001 to 1000 [m]");
   }
 };
 

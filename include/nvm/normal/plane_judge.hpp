@@ -2,11 +2,10 @@
 // Copyright (c) 2026 The nvm authors
 #pragma once
 
-#include <Eigen/Core>
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
+#include "nvm/geometry/float_lanes.hpp"
 #include "nvm/geometry/moments.hpp"
 #include "nvm/geometry/symmetric_eigen.hpp"
 #include "nvm/normal/normal_options.hpp"
@@ -26,40 +25,36 @@ class PlaneJudge {
 
   /// Writes status and normal, of either sign, of one block of queries.
   void operator()(
-      const BlockMoments& sums,
-      const SpatialOrder& queries,
-      std::size_t block,
-      NormalResult& result) const {
-    for (std::size_t group = 0; group < kLaneGroups; ++group) {
-      const Eigen3<FloatLanes> eigen = eigen_decomposition(scatter(sums[group]));
-      const std::size_t first = block * kBlockSize + group * kLaneCount;
-      const std::size_t last = std::min(first + kLaneCount, queries.size());
-      for (std::size_t i = first; i < last; ++i) {
-        const std::size_t lane = i - first;
-        const std::uint32_t out = queries.index[i];
-        result.status[out] = status(
-            sums[group].count[lane], eigen.smallest[lane], eigen.middle[lane], eigen.largest[lane]);
-        if (result.status[out] == NormalStatus::kValid) {
-          const Vector3Of<FloatLanes>& normal = eigen.smallest_vector;
-          result.normals[out] = {normal.x[lane], normal.y[lane], normal.z[lane]};
-        }
-      }
+      const QueryBlock& query, const Moments<FloatLanes>& sums, NormalResult& result) const {
+    const Eigen3<FloatLanes> eigen = eigen_decomposition(scatter(sums));
+    const FloatLaneBits verdict = judge(sums.count, eigen);
+    const FloatLanes zero{};
+    const auto is_valid = verdict == static_cast<std::int32_t>(NormalStatus::kValid);
+    const FloatLanes x = is_valid ? eigen.smallest_vector.x : zero;
+    const FloatLanes y = is_valid ? eigen.smallest_vector.y : zero;
+    const FloatLanes z = is_valid ? eigen.smallest_vector.z : zero;
+    for (std::size_t i = query.begin; i < query.end; ++i) {
+      const std::size_t lane = i - query.begin;
+      const std::uint32_t out = query.queries.index[i];
+      result.status[out] = static_cast<NormalStatus>(verdict[lane]);
+      result.normals[out] = {x[lane], y[lane], z[lane]};
     }
   }
 
  private:
-  NormalStatus status(float count, float smallest, float middle, float largest) const {
-    const float sum = smallest + middle + largest;
-    if (!(count >= min_neighbors_)) {
-      return NormalStatus::kFewNeighbors;
-    }
-    if (!(sum > 0.0F && largest <= max_linearity_ * sum)) {
-      return NormalStatus::kLineLike;
-    }
-    if (!(smallest <= max_surface_variation_ * sum)) {
-      return NormalStatus::kNotPlanar;
-    }
-    return NormalStatus::kValid;
+  // A NormalStatus per lane. The comparisons are false for NaN, which no plane has.
+  FloatLaneBits judge(const FloatLanes& count, const Eigen3<FloatLanes>& eigen) const {
+    const FloatLanes sum = eigen.smallest + eigen.middle + eigen.largest;
+    const auto is_flat = eigen.smallest <= max_surface_variation_ * sum;
+    const auto is_wide = (eigen.largest <= max_linearity_ * sum) & (sum > 0.0F);
+    const auto is_many = count >= min_neighbors_;
+    const auto status = [](NormalStatus value) {
+      return FloatLaneBits{} + static_cast<std::int32_t>(value);
+    };
+    FloatLaneBits verdict = status(NormalStatus::kValid);
+    verdict = is_flat ? verdict : status(NormalStatus::kNotPlanar);
+    verdict = is_wide ? verdict : status(NormalStatus::kLineLike);
+    return is_many ? verdict : status(NormalStatus::kFewNeighbors);
   }
 
   float min_neighbors_, max_linearity_, max_surface_variation_;

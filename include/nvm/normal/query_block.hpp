@@ -5,18 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "nvm/geometry/float_lanes.hpp"
-#include "nvm/geometry/moments.hpp"
-#include "nvm/normal/spatial_order.hpp"
+#include "nvm/normal/sorted_points.hpp"
 
 namespace nvm::detail {
-
-/// Passes over the queries of a block, kLaneCount at a time.
-inline constexpr std::size_t kLaneGroups = kBlockSize / kLaneCount;
-
-/// Moments of the neighbours of each query of a block, relative to that query.
-using BlockMoments = std::array<Moments<FloatLanes>, kLaneGroups>;
 
 /// Squared length [m^2]: of the difference of two points, it is compared to the squared radius. A
 /// neighbour is a point with sq_length <= sq_radius, inclusive, whatever finds it.
@@ -25,27 +21,48 @@ Real sq_length(const Real& x, const Real& y, const Real& z) {
   return multiply_add<Real>(z, z, multiply_add<Real>(y, y, x * x));
 }
 
-/// Up to kBlockSize consecutive queries of a spatial order and the box around them.
-struct QueryBlock {
-  const float *x, *y, *z, *sq_radius;  // kBlockSize each; NaN where there is no query
-  std::size_t size;
-  float min_x, min_y, min_z, max_x, max_y, max_z;
+/// Consecutive sorted queries, one per lane, and the box around them.
+template <class Lanes>
+struct BasicQueryBlock {
+  static constexpr std::size_t kSize = sizeof(Lanes) / sizeof(float);
+  static_assert(SortedPoints::kPadding % kSize == 0, "whole blocks can be loaded");
+
+  const SortedPoints& queries;
+  std::size_t begin, end;
+  Lanes x, y, z, sq_radius;  // NaN in a lane without a query
+  std::array<float, 3> min, max;
   float min_sq_radius, max_sq_radius;
 
-  QueryBlock(const SpatialOrder& queries, std::size_t block)
-      : x(&queries.x[block * kBlockSize]),
-        y(&queries.y[block * kBlockSize]),
-        z(&queries.z[block * kBlockSize]),
-        sq_radius(&queries.sq_radius[block * kBlockSize]),
-        size(std::min(kBlockSize, queries.size() - block * kBlockSize)),
-        min_x(*std::min_element(x, x + size)),
-        min_y(*std::min_element(y, y + size)),
-        min_z(*std::min_element(z, z + size)),
-        max_x(*std::max_element(x, x + size)),
-        max_y(*std::max_element(y, y + size)),
-        max_z(*std::max_element(z, z + size)),
-        min_sq_radius(*std::min_element(sq_radius, sq_radius + size)),
-        max_sq_radius(*std::max_element(sq_radius, sq_radius + size)) {}
+  BasicQueryBlock(const SortedPoints& order, std::size_t block)
+      : queries(order),
+        begin(block * kSize),
+        end(std::min(begin + kSize, order.size())),
+        x(load_lanes<Lanes>(&order.x[begin])),
+        y(load_lanes<Lanes>(&order.y[begin])),
+        z(load_lanes<Lanes>(&order.z[begin])),
+        sq_radius(load_lanes<Lanes>(&order.sq_radius[begin])) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      std::tie(min[axis], max[axis]) = range(order.coordinate(axis));
+    }
+    std::tie(min_sq_radius, max_sq_radius) = range(order.sq_radius);
+  }
+
+  /// How many blocks `queries` fill.
+  static std::size_t count(const SortedPoints& queries) {
+    return (queries.size() + kSize - 1) / kSize;
+  }
+
+ private:
+  std::pair<float, float> range(const std::vector<float>& values) const {
+    float low = values[begin], high = values[begin];
+    for (std::size_t i = begin + 1; i < end; ++i) {
+      low = std::min(low, values[i]);
+      high = std::max(high, values[i]);
+    }
+    return {low, high};
+  }
 };
+
+using QueryBlock = BasicQueryBlock<FloatLanes>;
 
 }  // namespace nvm::detail

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The nvm authors
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -15,22 +16,26 @@ struct KeyedIndex {
   std::uint32_t index;
 };
 
-/// Stable sort by key, digit by digit from the lowest: linear in the number of items. `key_bits`
-/// bits of the keys are in use. `scratch` is a buffer to be kept between calls.
+/// Stable sort by key, digit by digit from the lowest: linear in the number of items. Only the
+/// lowest `key_bits` bits of the keys are in use. `scratch` is a buffer to be kept between calls.
 inline void radix_sort(
     std::vector<KeyedIndex>& items, std::vector<KeyedIndex>& scratch, int key_bits) {
-  constexpr int kDigitBits = 11;
-  constexpr std::uint64_t kDigits = std::uint64_t{1} << kDigitBits;
+  constexpr int kMaxDigitBits = 12;
+  constexpr std::size_t kMaxDigits = std::size_t{1} << kMaxDigitBits;
+  const int passes = (key_bits + kMaxDigitBits - 1) / kMaxDigitBits;
+  const int digit_bits = passes > 0 ? (key_bits + passes - 1) / passes : 0;
+  const std::size_t digits = std::size_t{1} << digit_bits;
   scratch.resize(items.size());
-  for (int shift = 0; shift < key_bits; shift += kDigitBits) {
-    const auto digit = [shift](const KeyedIndex& item) {
-      return (item.key >> shift) & (kDigits - 1);
+  for (int pass = 0; pass < passes; ++pass) {
+    const auto digit = [shift = pass * digit_bits, mask = digits - 1](const KeyedIndex& item) {
+      return (item.key >> shift) & mask;
     };
-    std::array<std::uint32_t, kDigits + 1> begin{};
+    std::array<std::uint32_t, kMaxDigits + 1> begin;
+    std::fill_n(begin.begin(), digits + 1, 0U);
     for (const KeyedIndex& item : items) {
       ++begin[digit(item) + 1];
     }
-    for (std::size_t d = 0; d < kDigits; ++d) {
+    for (std::size_t d = 0; d < digits; ++d) {
       begin[d + 1] += begin[d];
     }
     for (const KeyedIndex& item : items) {

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "nvm/normal/cluster.hpp"
+#include "nvm/normal/query_block.hpp"
+#include "nvm/normal/sorted_points.hpp"
+
+namespace nvm::detail {
+
+/// Where `point` is from each query, and which queries have it within their radius. The offset is
+/// zero where it is not.
+struct Offset {
+  FloatLanes weight, x, y, z;  // the weight is one or zero
+
+  Offset(const SortedPoints& points, std::size_t point, const QueryBlock& query) {
+    const FloatLanes dx = points.x[point] - query.x;
+    const FloatLanes dy = points.y[point] - query.y;
+    const FloatLanes dz = points.z[point] - query.z;
+    const auto is_near = sq_length(dx, dy, dz) <= query.sq_radius;
+    const FloatLanes zero{}, one = constant<FloatLanes>(1.0);
+    weight = is_near ? one : zero;
+    x = is_near ? dx : zero;
+    y = is_near ? dy : zero;
+    z = is_near ? dz : zero;
+  }
+};
+
+/// What a BlockTree holds: the points of a scan.
+struct PointItems {
+  const SortedPoints& points;
+
+  const SortedPoints& positions() const { return points; }
+  Cluster cluster(std::size_t i) const { return {1.0F, points.x[i], points.y[i], points.z[i]}; }
+
+  /// Adds item `i` to the sums of the queries that have it within their radius.
+  void add_if_near(std::size_t i, const QueryBlock& query, Moments<FloatLanes>& sum) const {
+    const Offset d(points, i, query);
+    sum.add(d.weight, d.x, d.y, d.z);
+  }
+};
+
+/// Or cells of a scan, each near where its mean is. There are as many clusters as padded means.
+struct CellItems {
+  const SortedPoints& means;
+  const std::vector<Cluster>& cells;
+
+  const SortedPoints& positions() const { return means; }
+  const Cluster& cluster(std::size_t i) const { return cells[i]; }
+
+  void add_if_near(std::size_t i, const QueryBlock& query, Moments<FloatLanes>& sum) const {
+    const Offset d(means, i, query);
+    add_cluster(cells[i], d.weight, d.x, d.y, d.z, sum);
+  }
+};
+
+}  // namespace nvm::detail
