@@ -38,7 +38,7 @@ template <class Executor>
 class ExecutorLaws : public ::testing::Test {
  protected:
   void SetUp() override {
-#ifdef __SANITIZE_THREAD__
+#ifdef NVM_THREAD_SANITIZER
     if (std::is_same_v<Executor, OpenMpExecutor>) {
       GTEST_SKIP() << "ThreadSanitizer does not see the synchronisation inside libgomp";
     }

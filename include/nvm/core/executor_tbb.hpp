@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "nvm/core/thread_sanitizer.hpp"
+
 namespace nvm {
 
 /// Like SerialExecutor, on the threads of oneTBB. Limit them with tbb::global_control or a
@@ -15,9 +17,14 @@ struct TbbExecutor {
   template <class Body>
   void for_blocks(std::size_t size, std::size_t grain, const Body& body) const {
     const std::size_t blocks = (size + grain - 1) / grain;
-    tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
+    const auto run_block = [&](std::size_t block) {
+      detail::tasks_forked.passed();
       body(block * grain, std::min((block + 1) * grain, size));
-    });
+      detail::tasks_joined.reached();
+    };
+    detail::tasks_forked.reached();
+    tbb::parallel_for(std::size_t{0}, blocks, run_block);
+    detail::tasks_joined.passed();
   }
 };
 
