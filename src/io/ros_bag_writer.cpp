@@ -76,6 +76,7 @@ struct Serializer<nvm::io::LivoxMessage> {
         stream.advance(static_cast<std::uint32_t>(bytes.size())), bytes.data(), bytes.size());
   }
 
+  // NOLINTNEXTLINE(readability-identifier-naming): the name that ROS asks for
   static std::uint32_t serializedLength(const nvm::io::LivoxMessage& message) {
     constexpr std::uint32_t kFixed = 8 + 4 + 4 + 4;
     return serializationLength(message.header) + kFixed +
