@@ -47,7 +47,7 @@ struct World {
   static adapters::HostOptions options() {
     adapters::HostOptions options;
     options.map.voxel_size = kVoxel;
-    options.map.min_point_distance = 0.02;
+    options.map.min_point_distance = 0.1;
     return options;
   }
   static IVox::Options ivox_options() {

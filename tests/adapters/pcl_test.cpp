@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+#include "adapters/common/scan_normals.hpp"
+#include "adapters/ikd_tree/ikd_tree.hpp"
 #include "adapters/pcl/cloud.hpp"
 #include "adapters/pcl/map_search.hpp"
 #include "adapters/pcl/normal_estimation.hpp"
@@ -140,6 +142,41 @@ TEST(PclSearch, FindsWhatPclFinds) {
   EXPECT_THROW(
       ours.setInputCloud(::pcl::make_shared<::pcl::PointCloud<::pcl::PointNormal>>()),
       std::invalid_argument);
+}
+
+// FAST_LIO's patch B on its own point type and clouds: estimate on the thinned scan, rotate where
+// points are transformed, let the normals ride in the points.
+TEST(PclHosts, CarryNormalsThroughTheirOwnPoints) {
+  using Point = ::pcl::PointXYZINormal;
+  std::mt19937_64 rng = test::rng();
+  const test::Cloud wall = test::thin_wall(6000, 0.05, rng);
+  ::pcl::PointCloud<Point> undistorted, down, world;
+  for (std::size_t i = 0; i < wall.points.size(); i += 2) {  // the face that the sensor sees
+    Point point = adapters::make_point<Point>(wall.points[i] - Eigen::Vector3d(0, 3, 0));
+    point.curvature = 42.0F;
+    undistorted.push_back(point);
+    if (i % 4 == 0) {
+      down.push_back(point);
+    }
+  }
+  NormalOptions options;
+  options.min_radius = options.max_radius = 0.3;
+  adapters::ScanNormals scan_normals(options);
+  const NormalStats stats = scan_normals.write(down.points, undistorted.points);
+  EXPECT_GT(stats.valid, down.size() * 9 / 10);
+  const Eigen::Matrix3d half_turn = Eigen::Vector3d(-1, -1, 1).asDiagonal();
+  world = down;
+  for (std::size_t i = 0; i < down.size(); ++i) {
+    world[i] = adapters::make_point<Point>(half_turn * position(down[i]));
+    adapters::rotate_normal(half_turn, down[i], world[i]);
+    EXPECT_EQ(down[i].curvature, 42.0F);
+    if (adapters::is_unit_normal(adapters::normal_field(world[i]))) {
+      EXPECT_LT(world[i].normal_y, -0.8F);  // still at the sensor, which is on that side now
+    }
+  }
+  adapters::IkdTree<Point> tree;
+  tree.Build(world.points);
+  EXPECT_GT(tree.map().map()->size(), 100U);
 }
 
 }  // namespace
