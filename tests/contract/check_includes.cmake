@@ -1,6 +1,6 @@
 # cmake -D root=SOURCE_DIR -P check_includes.cmake
-# Refuses an include against the direction of the layers, in the core a library beyond its two, and
-# a file that has grown too long.
+# Refuses an include against the direction of the layers, in the core a library beyond its two, a
+# source file that does not include its own header first, and a file that has grown too long.
 cmake_minimum_required(VERSION 3.22)
 
 set(layers core geometry normal map registration adapters config lio io sim eval app)
@@ -48,6 +48,13 @@ foreach(layer IN LISTS layers)
           list(APPEND problems "${file}: ${include} (not in the core)")
         endif()
       endforeach()
+      string(REGEX REPLACE "cpp$" "hpp" header ${file})
+      string(REGEX MATCH "[^/]+$" header_name ${header})
+      if(file MATCHES "cpp$"
+         AND EXISTS ${root}/${header}
+         AND NOT includes MATCHES "^#include \"[a-z_]+/${header_name}\"")
+        list(APPEND problems "${file}: does not include its own header first")
+      endif()
       if(line_count GREATER max_lines)
         list(APPEND problems "${file}: longer than ${max_lines} lines")
       endif()
