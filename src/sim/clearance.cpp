@@ -47,7 +47,9 @@ void check_clearance(
     const Scene& scene, const RayCaster& rays, const Motion& motion, double clearance) {
   const std::vector<Eigen::Vector3d> directions = even_directions(kRayCount);
   Eigen::Vector3d previous = motion.pose(0.0).translation();
-  for (double time = 0.0; time <= motion.duration(); time += kInterval) {
+  const auto intervals = static_cast<std::size_t>(motion.duration() / kInterval);
+  for (std::size_t i = 0; i <= intervals; ++i) {
+    const double time = static_cast<double>(i) * kInterval;
     const Eigen::Vector3d p = motion.pose(time).translation();
     for (const Eigen::Vector3d& direction : directions) {
       if (const auto hit = rays.cast(p, direction, clearance)) {

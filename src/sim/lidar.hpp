@@ -50,8 +50,8 @@ class Lidar {
   /// Scan `index`, from time index / scan_rate; each shot is cast from the true pose at its time.
   SimulatedScan scan(std::size_t index) const;
 
-  /// True pose of the LiDAR in the IMU frame.
-  const Pose& T_imu_lidar() const { return T_imu_lidar_; }
+  /// T_imu_lidar, the true pose of the LiDAR in the IMU frame.
+  const Pose& extrinsic() const { return T_imu_lidar_; }
 
  private:
   struct Return {

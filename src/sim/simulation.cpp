@@ -84,7 +84,7 @@ SimulationSummary simulate(
   writer.write_groundtruth(truth);
   facts.points = hits.points();
   facts.imu_samples = imu.size();
-  facts.T_imu_lidar = lidar.T_imu_lidar();
+  facts.T_imu_lidar = lidar.extrinsic();
   writer.write_text("meta.json", meta_json(scene, options, facts));
   writer.write_text("scene.json", scene_json(scene, hits));
   writer.commit();

@@ -39,7 +39,7 @@ class UniformSpline {
   /// The value at time `t` [s], a double or a Jet; times outside [0, duration] extrapolate.
   template <class Scalar>
   std::array<Scalar, N> at(const Scalar& t) const {
-    const double last_span = static_cast<double>(controls_.size() - kControls - 1);
+    const auto last_span = static_cast<double>(controls_.size() - kControls - 1);
     const double span = std::clamp(std::floor(value_of(t) / spacing_), 0.0, last_span);
     const std::array<Scalar, kControls> weights = basis(t * (1.0 / spacing_) - span);
     const Value* controls = controls_.data() + static_cast<std::size_t>(span);

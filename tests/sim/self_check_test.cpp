@@ -49,18 +49,18 @@ INSTANTIATE_TEST_SUITE_P(
     });
 
 TEST_P(SelfCheck, PointsLieOnSurfacesWithinNoise) {
-  const auto result = residuals(lidar().T_imu_lidar());
+  const auto result = residuals(lidar().extrinsic());
   EXPECT_TRUE(result.is_consistent(0.01))
       << result.mean() << " " << result.sigma() << " " << result.misses();
 }
 
 TEST_P(SelfCheck, AClockShiftOf5MillisecondsFails) {
-  EXPECT_FALSE(residuals(lidar().T_imu_lidar(), 0.005).is_consistent(0.01));
+  EXPECT_FALSE(residuals(lidar().extrinsic(), 0.005).is_consistent(0.01));
 }
 
 TEST_P(SelfCheck, AnExtrinsicErrorOfACentimetreFails) {
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    const Pose T_imu_lidar = lidar().T_imu_lidar() * shift(0.01 * Eigen::Vector3d::Unit(axis));
+    const Pose T_imu_lidar = lidar().extrinsic() * shift(0.01 * Eigen::Vector3d::Unit(axis));
     EXPECT_FALSE(residuals(T_imu_lidar).is_consistent(0.01));
   }
 }
@@ -86,7 +86,7 @@ TEST_P(SelfCheck, WithoutNoiseEachPointIsOnASolid) {
   for (std::size_t i = 0; i < scan.points.size(); i += 37) {
     const lio::TimedPoint& point = scan.points[i];
     const Pose T_world_lidar =
-        motion_.pose(scan.t_begin + static_cast<double>(point.dt)) * sensor.T_imu_lidar();
+        motion_.pose(scan.t_begin + static_cast<double>(point.dt)) * sensor.extrinsic();
     const Eigen::Vector3d p =
         T_world_lidar * Eigen::Vector3f(point.x, point.y, point.z).cast<double>();
     double nearest = std::numeric_limits<double>::infinity();

@@ -40,13 +40,15 @@ TEST_P(ShippedScene, CanBeWalkedWithManySeeds) {
   }
 }
 
-/// Every other second of a Mid-360 shows both faces of every piece of every listed wall.
+/// 25 ms of a Mid-360 in every second show both faces of every piece of every listed wall.
 TEST_P(ShippedScene, ShowsBothFacesOfEachListedWall) {
   const Motion motion(scene_.route, {}, 1, 0.0);
-  const Lidar lidar(find_sensor("mid360"), {}, {scene_, rays_, motion}, 1);
+  LidarOptions options;
+  options.scan_rate = 40.0;
+  const Lidar lidar(find_sensor("mid360"), options, {scene_, rays_, motion}, 1);
   SurfaceHits hits(scene_);
-  for (double time = 2.0; time < motion.duration() - 1.0; time += 2.0) {
-    hits.count(lidar.scan(static_cast<std::size_t>(10.0 * time)));
+  for (std::size_t second = 0; static_cast<double>(second + 1) < motion.duration(); ++second) {
+    hits.count(lidar.scan(40 * second));
   }
   EXPECT_FALSE(scene_.wall_pieces.empty());
   constexpr std::size_t kMinHits = 10;
