@@ -12,6 +12,7 @@
 #include <cstring>
 #include <limits>
 #include <random>
+#include <type_traits>
 #include <vector>
 
 #include "support/rng.hpp"
@@ -94,11 +95,12 @@ void measure(const Symmetric3<Real>& m, Errors& worst) {
   const Eigen3<Real> e = eigen_decomposition(m);
   const Vector values(e.smallest, e.middle, e.largest);
   const Matrix v = vectors(e);
-  using Precise = Eigen::Matrix<long double, 3, 3>;
+  using Precise = std::conditional_t<std::is_same_v<Real, float>, double, long double>;
+  const Eigen::Matrix<Precise, 3, 3> precise = exact.cast<Precise>();
   const Vector reference =
-      Eigen::SelfAdjointEigenSolver<Precise>(exact.cast<long double>(), Eigen::EigenvaluesOnly)
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix<Precise, 3, 3>>(precise, Eigen::EigenvaluesOnly)
           .eigenvalues()
-          .cast<double>();
+          .template cast<double>();
   const Matrix residual = exact * v - v * values.asDiagonal();
   const double epsilon = static_cast<double>(std::numeric_limits<Real>::epsilon());
   worst.value = std::max(worst.value, (values - reference).cwiseAbs().maxCoeff() / unit);

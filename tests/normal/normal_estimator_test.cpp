@@ -7,7 +7,6 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <random>
 #include <set>
@@ -17,6 +16,7 @@
 
 #include "nvm/core/executor_openmp.hpp"
 #include "nvm/core/executor_tbb.hpp"
+#include "nvm/core/thread_sanitizer.hpp"
 #include "support/furnished_room.hpp"
 #include "support/rng.hpp"
 
@@ -51,10 +51,8 @@ NormalOptions fixed_radius(double radius) {
 }
 
 void expect_same_bits(const NormalResult& a, const NormalResult& b) {
-  ASSERT_EQ(a.status, b.status);
-  ASSERT_EQ(a.normals.size(), b.normals.size());
-  EXPECT_EQ(
-      std::memcmp(a.normals.data(), b.normals.data(), a.normals.size() * sizeof(Vector3f)), 0);
+  EXPECT_EQ(a.status, b.status);
+  EXPECT_EQ(a.normals, b.normals);
 }
 
 class NormalEstimation : public ::testing::TestWithParam<NormalMethod> {
@@ -173,7 +171,9 @@ TEST_P(NormalEstimation, IsTheSameForEveryExecutor) {
   const Vector3d viewpoint(0, 0, 0);
   const NormalResult serial = estimate_normals(scan.points, viewpoint, options());
   expect_same_bits(serial, estimate_normals(scan.points, viewpoint, options(), TbbExecutor()));
+#ifndef NVM_THREAD_SANITIZER  // which does not see the synchronisation inside libgomp
   expect_same_bits(serial, estimate_normals(scan.points, viewpoint, options(), OpenMpExecutor()));
+#endif
 }
 
 TEST_P(NormalEstimation, LeavesNoTraceOfEarlierScans) {
