@@ -3,18 +3,11 @@
 #pragma once
 
 #include "lio/executor.hpp"
+#include "lio/pose_observation.hpp"
 #include "lio/scan_matcher.hpp"
 #include "nvm/registration/scan_aligner.hpp"
 
 namespace nvm::lio {
-
-/// How sure the filter may be of a pose that the optimisation found: one standard deviation.
-struct PoseObservation {
-  double translation_deviation = 0.002;  ///< [m]
-  double rotation_deviation = 0.0005;    ///< [rad]
-
-  void validate() const;
-};
 
 /// CT-LIO style: the scan, deskewed by the IMU, is aligned to the map by robust, planarity-weighted
 /// least squares on its own; the filter then takes the pose as an observation (loose coupling).

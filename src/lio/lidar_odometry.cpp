@@ -3,6 +3,7 @@
 #include "lio/lidar_odometry.hpp"
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "lio/stage_timer.hpp"
@@ -20,6 +21,7 @@ LidarOdometry::LidarOdometry(
       search_(options.search, executor),
       map_(std::move(map)) {
   predicted_.T_body_lidar = options.T_body_lidar;
+  predicted_.time = -std::numeric_limits<double>::infinity();
 }
 
 FrameResult LidarOdometry::process(const Scan& scan) {
@@ -37,7 +39,7 @@ FrameResult LidarOdometry::process(const Scan& scan) {
 bool LidarOdometry::is_usable(const Scan& scan, FrameResult& result) const {
   if (scan.points.empty()) {
     result.message = "the scan is empty";
-  } else if (motion_ && !(scan.t_end > predicted_.time)) {
+  } else if (!(scan.t_end > predicted_.time)) {
     result.message = "the scan is not newer than the last one";
   }
   if (!result.message.empty()) {

@@ -11,35 +11,13 @@
 #include "lio/deskew.hpp"
 #include "lio/executor.hpp"
 #include "lio/keypoints.hpp"
+#include "lio/lidar_odometry_options.hpp"
 #include "lio/pipeline.hpp"
 #include "lio/start_search.hpp"
 #include "nvm/normal/normal_estimator.hpp"
 #include "nvm/registration/scan_aligner.hpp"
 
 namespace nvm::lio {
-
-/// Configuration of a LidarOdometry.
-struct LidarOdometryOptions {
-  RangeLimits range;
-  NormalOptions normals;
-  KeypointOptions keypoints;
-  AlignOptions align;
-  StartSearchOptions search;
-  /// Other starts are searched when a smaller share of the keypoints fits, 0 to 1, or when the
-  /// alignment moves them by more than this [m, root mean square], positive.
-  double min_confident_share = 0.8;
-  double max_confident_motion = 0.3;
-  /// When a smaller share fits even then, the frame is not believed, 0 to 1.
-  double min_inlier_share = 0.5;
-  /// The velocity holds for this long without a believed frame; then the frame counts as lost and
-  /// the LiDAR is taken to stand still [s], not negative.
-  double max_weak_duration = 1.0;
-  Pose T_body_lidar = Pose::Identity();
-
-  /// Throws std::invalid_argument with the name, the value and the allowed range of the first bad
-  /// member.
-  void validate() const;
-};
 
 /// Odometry from scans alone, scan to map: predict at constant velocity, deskew where points have
 /// times, estimate normals, align to the map, insert. A frame of which too little fits is aligned

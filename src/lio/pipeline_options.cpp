@@ -4,8 +4,10 @@
 
 #include <stdexcept>
 
+#include "lio/aligned_matcher.hpp"
 #include "lio/continuous_matcher.hpp"
 #include "lio/filter_matcher.hpp"
+#include "lio/lidar_odometry.hpp"
 
 namespace nvm::lio {
 

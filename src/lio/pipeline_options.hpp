@@ -4,11 +4,12 @@
 
 #include <memory>
 
-#include "lio/aligned_matcher.hpp"
 #include "lio/inertial_pipeline.hpp"
-#include "lio/lidar_odometry.hpp"
+#include "lio/lidar_odometry_options.hpp"
 #include "lio/pipeline.hpp"
 #include "lio/plane_measurement.hpp"
+#include "lio/pose_observation.hpp"
+#include "nvm/registration/align_options.hpp"
 
 namespace nvm::config {
 class Schema;

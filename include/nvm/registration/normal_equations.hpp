@@ -3,8 +3,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
-#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -96,45 +94,5 @@ struct NormalEquations {
     return *this;
   }
 };
-
-/// The step that solves NormalEquations, and what the scan tells about each direction.
-struct PoseSolution {
-  PoseStep step = PoseStep::Zero();
-  /// Eigenvalues of the information per unit of weight, ascending, with rotations measured by the
-  /// arc [m] that they make at the points' mean range: 0 (unobserved) to about 1 for each.
-  std::array<double, 6> observability{};
-  int degenerate_directions = 0;  ///< those below the limit, along which `step` is zero
-};
-
-/// Solves `equations`; directions whose observability is below `min_observability` stay as they
-/// are (solution remapping: Zhang, Kaess and Singh, "On degeneracy of optimization-based state
-/// estimation problems", ICRA 2016), so that a corridor or a lone wall leaves the guess untouched
-/// where it says nothing.
-inline PoseSolution solve(const NormalEquations& equations, double min_observability) {
-  PoseSolution solution;
-  if (!(equations.sum_weights > 0.0)) {
-    solution.degenerate_directions = 6;
-    return solution;
-  }
-  const double mean_range = std::sqrt(equations.sum_sq_ranges / equations.sum_weights);
-  PoseStep scale = PoseStep::Ones();
-  scale.head<3>().setConstant(mean_range > 0.0 ? 1.0 / mean_range : 1.0);
-  const Eigen::Matrix<double, 6, 6> scaled =
-      scale.asDiagonal() * equations.information * scale.asDiagonal() / equations.sum_weights;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(scaled);
-  const PoseStep target = -scale.cwiseProduct(equations.gradient) / equations.sum_weights;
-  for (int i = 0; i < 6; ++i) {
-    const double observability = eigen.eigenvalues()[i];
-    solution.observability[static_cast<std::size_t>(i)] = observability;
-    if (observability < min_observability) {
-      ++solution.degenerate_directions;
-      continue;
-    }
-    const auto direction = eigen.eigenvectors().col(i);
-    solution.step += (direction.dot(target) / observability) * direction;
-  }
-  solution.step = scale.cwiseProduct(solution.step).eval();
-  return solution;
-}
 
 }  // namespace nvm

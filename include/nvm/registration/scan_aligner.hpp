@@ -17,6 +17,7 @@
 #include "nvm/registration/association.hpp"
 #include "nvm/registration/normal_equations.hpp"
 #include "nvm/registration/point_to_plane.hpp"
+#include "nvm/registration/pose_solution.hpp"
 
 namespace nvm {
 

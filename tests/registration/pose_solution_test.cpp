@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#include "nvm/registration/normal_equations.hpp"
+#include "nvm/registration/pose_solution.hpp"
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <random>
 
 #include "support/rng.hpp"
