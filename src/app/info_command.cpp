@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include "app/info_command.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <Eigen/Geometry>
+#include <memory>
+#include <string>
+
+#include "nvm/map/serialization.hpp"
+
+namespace nvm::app {
+
+namespace {
+
+constexpr double kBytesPerMegabyte = 1e6;
+
+void print_info(const std::string& path) {
+  const VoxelMap map = load_map(path);
+  const MapOptions& options = map.options();
+  const MapStats stats = map.stats();
+  Eigen::AlignedBox3d bounds;
+  map.for_each_point([&](const MapPoint& point) { bounds.extend(point.position); });
+  fmt::print("points            {}\n", stats.points);
+  fmt::print("voxels            {} of at most {}\n", stats.voxels, options.capacity);
+  fmt::print("two-sided voxels  {}\n", stats.two_sided_voxels);
+  fmt::print("surfaces          {}\n", stats.surfaces);
+  fmt::print("voxel size        {} m\n", options.voxel_size);
+  fmt::print("point distance    {} m\n", options.min_point_distance);
+  fmt::print(
+      "memory            {:.1f} MB\n", static_cast<double>(stats.memory_bytes) / kBytesPerMegabyte);
+  if (!bounds.isEmpty()) {
+    fmt::print(
+        "bounds            {:.2f} {:.2f} {:.2f} to {:.2f} {:.2f} {:.2f} m\n",
+        bounds.min().x(),
+        bounds.min().y(),
+        bounds.min().z(),
+        bounds.max().x(),
+        bounds.max().y(),
+        bounds.max().z());
+  }
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("info", "Say what a saved map holds");
+  const auto path = std::make_shared<std::string>();
+  command->add_option("MAP", *path, "A map.nvm file")->required();
+  command->callback([path] { print_info(*path); });
+}
+
+}  // namespace nvm::app

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include "app/map_builder.hpp"
+
+#include <optional>
+
+#include "lio/constant_velocity.hpp"
+
+namespace nvm::app {
+
+MapBuilder::MapBuilder(const lio::PipelineOptions& options, const Trajectory& T_map_body)
+    : range_(options.inertial.range),
+      trajectory_(T_map_body),
+      executor_(options.threads),
+      normal_estimator_(options.inertial.normals),
+      map_(lio::make_map(options.map_type, options.map)) {
+  range_.validate();
+  end_.T_body_lidar = options.inertial.T_imu_lidar;
+}
+
+bool MapBuilder::add(const lio::Scan& scan) {
+  const std::optional<Pose> end = pose_at(trajectory_, scan.t_end);
+  if (!end) {
+    return false;
+  }
+  end_.time = scan.t_end;
+  end_.T_world_body = *end;
+  // A sweep that began before the first pose counts as made at rest.
+  lio::ConstantVelocity motion({scan.t_begin, pose_at(trajectory_, scan.t_begin).value_or(*end)});
+  if (scan.t_end > scan.t_begin) {
+    motion.add({scan.t_end, *end});
+  }
+  motion.sweep(scan.t_begin, scan.t_end, 0.0, segments_);
+  deskew(scan, segments_, end_, range_, scan_);
+  const NormalResult& result =
+      normal_estimator_.estimate(scan_.points, scan_.viewpoints, executor_);
+  map_->insert(scan_.points, result.normals, end_.T_world_lidar());
+  return true;
+}
+
+}  // namespace nvm::app

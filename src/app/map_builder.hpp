@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "lio/deskew.hpp"
+#include "lio/executor.hpp"
+#include "lio/lio_map.hpp"
+#include "lio/pipeline_options.hpp"
+#include "nvm/geometry/trajectory.hpp"
+#include "nvm/normal/normal_estimator.hpp"
+
+namespace nvm::app {
+
+/// Puts scans into a map at poses that are known.
+class MapBuilder {
+ public:
+  /// Throws std::invalid_argument for bad options.
+  MapBuilder(const lio::PipelineOptions& options, const Trajectory& T_map_body);
+
+  /// Adds a scan, deskewed along the trajectory. False when the trajectory says nothing about the
+  /// scan's time.
+  bool add(const lio::Scan& scan);
+
+  const lio::LioMap& map() const { return *map_; }
+
+ private:
+  lio::RangeLimits range_;
+  lio::NavState end_;
+  Trajectory trajectory_;
+  lio::Executor executor_;
+  NormalEstimator normal_estimator_;
+  std::unique_ptr<lio::LioMap> map_;
+  std::vector<lio::MotionSegment> segments_;
+  lio::DeskewedScan scan_;
+};
+
+}  // namespace nvm::app

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace nvm::app {
+
+/// Adds the subcommand "map" to `app`. It throws std::exception with one line about what is wrong.
+void add_map_command(CLI::App& app);
+
+}  // namespace nvm::app

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/sequence_reader.hpp"
+#include "lio/pipeline_options.hpp"
+#include "nvm/geometry/pose.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace nvm::app {
+
+/// Everything that a YAML file or --set can say about a run.
+struct RunOptions {
+  lio::PipelineOptions pipeline;
+  io::SequenceOptions input;
+  /// x y z [m] qx qy qz qw; empty: what the sequence tells.
+  std::vector<double> T_imu_lidar;
+};
+
+/// The command line's part of it, shared by the subcommands that read scans.
+struct RunOptionArguments {
+  std::string file;
+  std::vector<std::string> overrides;
+  bool prints_options = false;
+};
+
+/// Adds --config, --set and --print-config to `command`.
+void add_run_options(CLI::App& command, RunOptionArguments& arguments);
+
+/// The options that `arguments` ask for; prints them and gives nothing with --print-config. Throws
+/// std::invalid_argument, naming the key, for a bad one.
+std::optional<RunOptions> read_run_options(const RunOptionArguments& arguments);
+
+/// The extrinsic of a run: as configured, else as the sequence tells. Throws std::invalid_argument
+/// for numbers that are no pose.
+Pose lidar_extrinsic(const RunOptions& options, const io::SequenceInfo& info);
+
+}  // namespace nvm::app
