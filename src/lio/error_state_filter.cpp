@@ -21,6 +21,10 @@ void add_noise(NavCovariance& P, NavIndex part, double density, double dt) {
 constexpr double kCoastGyro = 1.0;   // [rad/s/sqrt(Hz)]
 constexpr double kCoastAccel = 2.0;  // [m/s^2/sqrt(Hz)]
 
+/// How much a body at rest may still move.
+constexpr double kRestVelocity = 0.005;  // [m/s]
+constexpr double kRestRate = 0.003;      // [rad/s]
+
 void symmetrize(NavCovariance& P) { P = (0.5 * (P + P.transpose())).eval(); }
 
 }  // namespace
@@ -68,7 +72,7 @@ MotionSegment ErrorStateFilter::predict(const ImuSample& a, const ImuSample& b) 
   return motion;
 }
 
-MotionSegment ErrorStateFilter::coast(double time) {
+MotionSegment ErrorStateFilter::coast(double time, const Eigen::Vector3d& rate) {
   const double dt = time - state_.time;
   NavMatrix F = NavMatrix::Identity();
   F.block<3, 3>(kPosition, kVelocity) = dt * Eigen::Matrix3d::Identity();
@@ -78,11 +82,7 @@ MotionSegment ErrorStateFilter::coast(double time) {
   covariance_.diagonal().segment<3>(kPosition).array() +=
       kCoastAccel * kCoastAccel * dt * dt * dt / 3.0;
   const MotionSegment motion{
-      state_.time,
-      state_.T_world_body,
-      state_.velocity,
-      Eigen::Vector3d::Zero(),
-      Eigen::Vector3d::Zero()};
+      state_.time, state_.T_world_body, state_.velocity, rate, Eigen::Vector3d::Zero()};
   state_.T_world_body = motion.pose_at(time);
   state_.time = time;
   return motion;
@@ -125,16 +125,32 @@ UpdateResult ErrorStateFilter::update(
   return result;
 }
 
+template <int kSize>
+void ErrorStateFilter::observe(
+    int part,
+    const Eigen::Matrix<double, kSize, 1>& innovation,
+    const Eigen::Matrix<double, kSize, kSize>& covariance) {
+  const Eigen::Matrix<double, kSize, kNavSize> HP = covariance_.middleRows<kSize>(part);
+  const Eigen::Matrix<double, kSize, kSize> S = HP.template middleCols<kSize>(part) + covariance;
+  const Eigen::Matrix<double, kNavSize, kSize> K = S.ldlt().solve(HP).transpose();
+  state_ = boxplus(state_, K * innovation);
+  covariance_ = (covariance_ - K * HP).eval();
+  symmetrize(covariance_);
+}
+
 void ErrorStateFilter::observe_pose(
     const Pose& T_world_body, const Eigen::Matrix<double, 6, 6, Eigen::DontAlign>& covariance) {
   Eigen::Matrix<double, 6, 1> innovation;
   innovation << T_world_body.translation() - state_.T_world_body.translation(),
       so3_log(state_.T_world_body.linear().transpose() * T_world_body.linear());
-  const Eigen::Matrix<double, 6, 6> S = covariance_.topLeftCorner<6, 6>() + covariance;
-  const Eigen::Matrix<double, kNavSize, 6> K = S.ldlt().solve(covariance_.topRows<6>()).transpose();
-  state_ = boxplus(state_, K * innovation);
-  covariance_ = (covariance_ - K * covariance_.topRows<6>()).eval();
-  symmetrize(covariance_);
+  observe<6>(kPosition, innovation, covariance);
+}
+
+void ErrorStateFilter::observe_rest(const Eigen::Vector3d& mean_gyro) {
+  observe<3>(
+      kVelocity, -state_.velocity, kRestVelocity * kRestVelocity * Eigen::Matrix3d::Identity());
+  observe<3>(
+      kGyroBias, mean_gyro - state_.gyro_bias, kRestRate * kRestRate * Eigen::Matrix3d::Identity());
 }
 
 void ImuNoise::validate() const {

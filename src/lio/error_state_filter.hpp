@@ -12,8 +12,8 @@ namespace nvm::lio {
 
 /// Noise of the IMU, as spectral densities (continuous-time white noise and bias random walk).
 struct ImuNoise {
-  double gyro = 1e-3;        ///< [rad/s/sqrt(Hz)]
-  double accel = 1e-2;       ///< [m/s^2/sqrt(Hz)]
+  double gyro = 5e-4;        ///< [rad/s/sqrt(Hz)]
+  double accel = 4e-3;       ///< [m/s^2/sqrt(Hz)]
   double gyro_bias = 1e-5;   ///< [rad/s^2/sqrt(Hz)]
   double accel_bias = 1e-4;  ///< [m/s^3/sqrt(Hz)]
 
@@ -69,9 +69,14 @@ class ErrorStateFilter {
   /// Returns the motion on the way.
   MotionSegment predict(const ImuSample& a, const ImuSample& b);
 
-  /// Moves the state to `time` [s] without IMU data: at constant velocity, with the uncertainty of
-  /// a hand-held sensor's acceleration and turning. Returns the motion on the way.
-  MotionSegment coast(double time);
+  /// Moves the state to `time` [s] without IMU data: at constant velocity and turning at `rate`
+  /// [rad/s, body frame], with the uncertainty of a hand-held sensor's acceleration and turning.
+  /// Returns the motion on the way.
+  MotionSegment coast(double time, const Eigen::Vector3d& rate);
+
+  /// Takes it that the body rests (zero-velocity update), `mean_gyro` [rad/s] being what the
+  /// gyroscope reads.
+  void observe_rest(const Eigen::Vector3d& mean_gyro);
 
   UpdateResult update(const Linearizer& linearize, const IterationOptions& options);
 
@@ -81,6 +86,12 @@ class ErrorStateFilter {
       const Pose& T_world_body, const Eigen::Matrix<double, 6, 6, Eigen::DontAlign>& covariance);
 
  private:
+  template <int kSize>
+  void observe(
+      int part,
+      const Eigen::Matrix<double, kSize, 1>& innovation,
+      const Eigen::Matrix<double, kSize, kSize>& covariance);
+
   NavState state_;
   NavCovariance covariance_;
   ImuNoise noise_;

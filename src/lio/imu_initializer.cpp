@@ -12,31 +12,6 @@ namespace nvm::lio {
 
 namespace {
 
-struct WindowStatistics {
-  Eigen::Vector3d mean_gyro = Eigen::Vector3d::Zero();
-  Eigen::Vector3d mean_accel = Eigen::Vector3d::Zero();
-  double gyro_deviation = 0.0;   ///< [rad/s], of the vector
-  double accel_deviation = 0.0;  ///< [m/s^2], of the vector
-};
-
-WindowStatistics statistics_of(const std::vector<ImuSample>& window) {
-  WindowStatistics s;
-  const double share = 1.0 / static_cast<double>(window.size());
-  for (const ImuSample& sample : window) {
-    s.mean_gyro += share * sample.gyro;
-    s.mean_accel += share * sample.accel;
-  }
-  double sq_gyro = 0.0;
-  double sq_accel = 0.0;
-  for (const ImuSample& sample : window) {
-    sq_gyro += share * (sample.gyro - s.mean_gyro).squaredNorm();
-    sq_accel += share * (sample.accel - s.mean_accel).squaredNorm();
-  }
-  s.gyro_deviation = std::sqrt(sq_gyro);
-  s.accel_deviation = std::sqrt(sq_accel);
-  return s;
-}
-
 Eigen::Matrix3d levelled(const Eigen::Vector3d& up_body) {
   return Eigen::Quaterniond::FromTwoVectors(up_body, Eigen::Vector3d::UnitZ()).toRotationMatrix();
 }
@@ -61,10 +36,46 @@ NavCovariance covariance_of(const InitialDeviations& deviation) {
   return sigma.cwiseAbs2().asDiagonal().toDenseMatrix();
 }
 
-constexpr InitialDeviations kStill{0.01, 0.003, 0.1, 0.012};
+constexpr InitialDeviations kStill{0.002, 0.003, 0.1, 0.012};
 constexpr InitialDeviations kMoving{1.0, 0.02, 0.2, 0.1};
 
+/// At rest the specific force is gravity's opposite: R (a - b_a) + g = 0. That ties the bias of the
+/// accelerometer to gravity's direction, though neither is known well alone.
+void tie_bias_to_gravity(InitialState& initial) {
+  constexpr double kDeviation = 0.003;  // of the mean specific force [m/s^2]
+  Eigen::Matrix<double, 3, kNavSize> H = Eigen::Matrix<double, 3, kNavSize>::Zero();
+  H.block<3, 3>(0, kAccelBias) = -initial.state.T_world_body.linear();
+  H.block<3, 2>(0, kGravity) = -skew(initial.state.gravity) * tangent_basis(initial.state.gravity);
+  NavCovariance& P = initial.covariance;
+  const Eigen::Matrix3d S =
+      H * P * H.transpose() + kDeviation * kDeviation * Eigen::Matrix3d::Identity();
+  const Eigen::Matrix<double, 3, kNavSize> HP = H * P;
+  P -= HP.transpose() * S.inverse() * HP;
+}
+
 }  // namespace
+
+Stillness judge_stillness(
+    const std::vector<ImuSample>& readings, const InitializerOptions& options) {
+  Stillness s;
+  const double share = 1.0 / static_cast<double>(readings.size());
+  for (const ImuSample& reading : readings) {
+    s.mean_gyro += share * reading.gyro;
+    s.mean_accel += share * reading.accel;
+  }
+  double sq_gyro = 0.0;
+  double sq_accel = 0.0;
+  for (const ImuSample& reading : readings) {
+    sq_gyro += share * (reading.gyro - s.mean_gyro).squaredNorm();
+    sq_accel += share * (reading.accel - s.mean_accel).squaredNorm();
+  }
+  s.gyro_deviation = std::sqrt(sq_gyro);
+  s.accel_deviation = std::sqrt(sq_accel);
+  s.still = s.gyro_deviation <= options.max_still_gyro &&
+            s.accel_deviation <= options.max_still_accel &&
+            s.mean_gyro.norm() <= options.max_still_rate;
+  return s;
+}
 
 ImuInitializer::ImuInitializer(const InitializerOptions& options) : options_(options) {
   options.validate();
@@ -102,9 +113,8 @@ std::optional<InitialState> ImuInitializer::still_state() {
     why_not_ = why.str();
     return std::nullopt;
   }
-  const WindowStatistics s = statistics_of(window_);
-  if (s.gyro_deviation > options_.max_still_gyro || s.accel_deviation > options_.max_still_accel ||
-      s.mean_gyro.norm() > options_.max_still_rate) {
+  const Stillness s = judge_stillness(window_, options_);
+  if (!s.still) {
     why << "the sensor moves: keep it still for " << options_.still_duration << " s (rate "
         << s.mean_gyro.norm() << " +- " << s.gyro_deviation << " rad/s, specific force +- "
         << s.accel_deviation << " m/s^2)";
@@ -118,6 +128,7 @@ std::optional<InitialState> ImuInitializer::still_state() {
   initial.state.accel_bias = s.mean_accel * (1.0 - options_.gravity / s.mean_accel.norm());
   initial.state.gravity = {0.0, 0.0, -options_.gravity};
   initial.covariance = covariance_of(kStill);
+  tie_bias_to_gravity(initial);
   return initial;
 }
 

@@ -29,6 +29,19 @@ struct InitializerOptions {
   void validate() const;
 };
 
+/// How still the sensor was during some readings, by InitializerOptions' limits.
+struct Stillness {
+  bool still = false;
+  Eigen::Vector3d mean_gyro = Eigen::Vector3d::Zero();   ///< [rad/s]
+  Eigen::Vector3d mean_accel = Eigen::Vector3d::Zero();  ///< [m/s^2]
+  double gyro_deviation = 0.0;                           ///< [rad/s], of the vector
+  double accel_deviation = 0.0;                          ///< [m/s^2], of the vector
+};
+
+/// `readings` must not be empty.
+Stillness judge_stillness(
+    const std::vector<ImuSample>& readings, const InitializerOptions& options);
+
 /// The first state and how sure it is.
 struct InitialState {
   NavState state;

@@ -74,7 +74,7 @@ bool InertialPipeline::initialize(double until, FrameResult& result) {
       initial->covariance.diagonal() += extrinsic.cwiseAbs2();
       initial->state.T_body_lidar = options_.T_imu_lidar;
       filter_.emplace(initial->state, initial->covariance, options_.imu_noise);
-      last_believed_ = sample.time;
+      last_believed_ = {sample.time, initial->state.T_world_body};
       result.message = initial->still ? "" : "started while moving";
       return true;
     }
@@ -94,15 +94,45 @@ void InertialPipeline::predict(double until) {
     }
     const ImuSample* previous = &next == samples_.data() ? nullptr : &next - 1;
     const bool bridged = previous && next.time - previous->time <= options_.max_imu_gap;
-    segments_.push_back(bridged ? filter_->predict(*previous, next) : filter_->coast(next.time));
+    if (bridged) {
+      segments_.push_back(filter_->predict(*previous, next));
+    } else {
+      coast(next.time);
+    }
   }
   if (filter_->state().time < until) {
-    segments_.push_back(filter_->coast(until));
+    coast(until);
+  } else if (!samples_.empty()) {
+    use_rest();
   }
   if (segments_.empty()) {  // a scan that ends where the last one did
     segments_.push_back({begin, filter_->state().T_world_body, filter_->state().velocity});
   }
   imu_.use_until(until);
+}
+
+void InertialPipeline::coast(double until) {
+  constexpr double kLongestTurn = 0.3;  // a hand's turn does not last longer [s]
+  const bool turns = until - last_believed_.time <= kLongestTurn;
+  segments_.push_back(
+      filter_->coast(until, turns ? turn_rate_ : Eigen::Vector3d(Eigen::Vector3d::Zero())));
+}
+
+void InertialPipeline::use_rest() {
+  constexpr double kSlow = 0.05;  // a smooth ride looks like rest to the IMU [m/s]
+  const Stillness stillness = judge_stillness(samples_, options_.initializer);
+  if (stillness.still && filter_->state().velocity.norm() < kSlow) {
+    filter_->observe_rest(stillness.mean_gyro);
+  }
+}
+
+void InertialPipeline::believe() {
+  const StampedPose now{filter_->state().time, filter_->state().T_world_body};
+  const double duration = now.time - last_believed_.time;
+  if (duration > 0.0) {
+    turn_rate_ = so3_log(last_believed_.pose.linear().transpose() * now.pose.linear()) / duration;
+  }
+  last_believed_ = now;
 }
 
 void InertialPipeline::prepare(const Scan& scan, FrameResult& result) {
@@ -134,11 +164,11 @@ void InertialPipeline::match(FrameResult& result) {
   result.iterations = match.iterations;
   if (match.accepted && match.inlier_share >= options_.min_inlier_share) {
     result.status = FrameStatus::kTracking;
-    last_believed_ = result.time;
+    believe();
     return;
   }
   *filter_ = predicted;
-  const bool lost = result.time - last_believed_ > options_.max_weak_duration;
+  const bool lost = result.time - last_believed_.time > options_.max_weak_duration;
   result.status = lost ? FrameStatus::kLost : FrameStatus::kWeak;
   result.message = "too little of the scan fits the map";
 }

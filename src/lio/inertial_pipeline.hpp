@@ -14,6 +14,7 @@
 #include "lio/keypoints.hpp"
 #include "lio/pipeline.hpp"
 #include "lio/scan_matcher.hpp"
+#include "nvm/geometry/trajectory.hpp"
 #include "nvm/normal/normal_estimator.hpp"
 
 namespace nvm::lio {
@@ -61,6 +62,9 @@ class InertialPipeline final : public Pipeline {
  private:
   bool initialize(double until, FrameResult& result);
   void predict(double until);
+  void coast(double until);
+  void use_rest();
+  void believe();
   void prepare(const Scan& scan, FrameResult& result);
   void match(FrameResult& result);
   void insert(FrameResult& result);
@@ -75,8 +79,8 @@ class InertialPipeline final : public Pipeline {
   std::unique_ptr<ScanMatcher> matcher_;
   std::optional<ErrorStateFilter> filter_;
   double initialized_until_ = -1e300;  ///< time of the last reading given to the initializer [s]
-  double last_believed_ = 0.0;         ///< time of the last frame that was [s]
-  Eigen::Vector3d last_rate_ = Eigen::Vector3d::Zero();
+  StampedPose last_believed_;          ///< of the last frame that was
+  Eigen::Vector3d turn_rate_ = Eigen::Vector3d::Zero();  ///< by the LiDAR [rad/s], body frame
   // Kept for their memory.
   std::vector<ImuSample> samples_;
   std::vector<MotionSegment> segments_;

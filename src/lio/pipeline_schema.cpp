@@ -109,6 +109,8 @@ void bind_filter(Schema& schema, PipelineOptions& options) {
   schema.add("max_neighbor_distance", m.max_neighbor_distance, kPositive, "[m]");
   schema.add("max_plane_distance", m.max_plane_distance, kPositive, "[m]");
   schema.add("max_plane_deviation", m.max_plane_deviation, kPositive, "[m]");
+  schema.add_angle("max_normal_angle_deg", m.max_normal_angle, {0.1, 90.0}, "Plane to point");
+  schema.add("min_planarity", m.min_planarity, kShare, "Of a plane (a2D)");
   schema.add("range_deviation", m.range_deviation, kPositive, "Of a return along the beam [m]");
   schema.add("beam_deviation", m.beam_deviation, kPositive, "Of a return across it [rad]");
   schema.add("huber", m.huber, kPositive, "Residuals beyond pull less [standard deviations]");

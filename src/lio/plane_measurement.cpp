@@ -87,7 +87,11 @@ void PlaneMeasurement::associate_one(
     return;
   }
   const std::optional<Plane> plane = fit_plane(found.data(), count);
-  if (!plane || plane->deviation[0] > options_.max_plane_deviation) {
+  if (!plane || plane->deviation[0] > options_.max_plane_deviation ||
+      plane->planarity < options_.min_planarity) {
+    return;
+  }
+  if (std::abs(plane->normal.dot(n_map.cast<double>())) < std::cos(options_.max_normal_angle)) {
     return;
   }
   const Eigen::Vector3d offset = point - plane->centroid;
@@ -101,6 +105,7 @@ void PlaneMeasurement::associate_one(
   r.plane_normal = plane->normal;
   r.plane_offset = plane->normal.dot(plane->centroid);
   r.plane_variance = scatter * lever;
+  r.planarity = plane->planarity;
   r.valid = true;
 }
 
@@ -145,8 +150,8 @@ void PlaneMeasurement::add_block(
     h.segment<3>(kLidarRotation) = r.p_lidar.cross(n_lidar);
     const double sigma = std::sqrt(variance(state, r));
     const double excess = std::abs(r.distance) / (options_.huber * sigma);
-    const double weight =
-        (excess > 1.0 ? 1.0 / excess : 1.0) / (sigma * sigma * options_.correlation);
+    const double weight = (excess > 1.0 ? 1.0 / excess : 1.0) /
+                          (sigma * sigma * options_.correlation) * r.planarity * r.planarity;
     out.matrix.selfadjointView<Eigen::Lower>().rankUpdate(h, weight);
     out.vector += (weight * r.distance) * h;
   }
@@ -188,6 +193,8 @@ void MeasurementOptions::validate() const {
   positive(max_neighbor_distance, "max_neighbor_distance");
   positive(max_plane_distance, "max_plane_distance");
   positive(max_plane_deviation, "max_plane_deviation");
+  positive(max_normal_angle, "max_normal_angle");
+  require(min_planarity >= 0.0 && min_planarity < 1.0, "min_planarity", min_planarity, "0 to 1");
   positive(range_deviation, "range_deviation");
   positive(beam_deviation, "beam_deviation");
   positive(huber, "huber");

@@ -18,14 +18,19 @@ namespace nvm::lio {
 /// the map, and how much that distance errs.
 struct MeasurementOptions {
   /// Neighbours that a plane is fitted to at most, and at least: 3 to kMaxNeighbors.
-  std::size_t neighbors = 20;
-  std::size_t min_neighbors = 8;
+  std::size_t neighbors = 10;
+  std::size_t min_neighbors = 6;
   /// Neighbours lie at most this far from the point [m], positive.
   double max_neighbor_distance = 0.6;
   /// A point farther from its plane belongs to something else [m], positive.
   double max_plane_distance = 0.3;
   /// Neighbours that deviate more from their plane (one standard deviation) are none [m], positive.
   double max_plane_deviation = 0.05;
+  /// A plane whose normal is farther from the point's own [rad] belongs to another surface, or goes
+  /// through a line of points that one ring of the LiDAR has drawn.
+  double max_normal_angle = 0.5;
+  /// Planes less planar than this (a2D of spec §4) are lines, 0 to 1.
+  double min_planarity = 0.2;
   /// Standard deviations of a return: along the beam [m], and across it as an angle [rad].
   double range_deviation = 0.01;
   double beam_deviation = 5e-4;
@@ -37,7 +42,7 @@ struct MeasurementOptions {
   std::size_t min_residuals = 50;
   /// Directions of the pose with a smaller share of the information are left to the IMU, 0 to 1
   /// (see remove_unobserved).
-  double min_observability = 1e-3;
+  double min_observability = 1e-4;
 
   void validate() const;
 };
@@ -52,6 +57,7 @@ struct PlaneResidual {
   Eigen::Vector3d plane_normal;  ///< map frame
   double plane_offset = 0.0;     ///< plane_normal . x for x on the plane [m]
   double plane_variance = 0.0;   ///< of the plane at the point [m^2]
+  double planarity = 0.0;        ///< a2D of spec §4
   double distance = 0.0;         ///< of the point from the plane [m], at the last state evaluated
   bool valid = false;
 };
