@@ -92,7 +92,8 @@ void ContinuousMatcher::add_point(
       begin_share * correction_.head<6>() + (1.0 - begin_share) * correction_.tail<6>();
   const Pose T_here = retract(T_world_lidar, here);
   const Eigen::Vector3d p_scan = scan.scan.points[index].cast<double>();
-  const Eigen::Vector3f n_map = (T_here.linear() * scan.normals[index].cast<double>()).cast<float>();
+  const Eigen::Vector3f n_map =
+      (T_here.linear() * scan.normals[index].cast<double>()).cast<float>();
   const Association association =
       associate(map, T_here * p_scan, n_map, options_.association, context);
   sums.end.add(p_scan, T_here.linear(), association, options_.kernel);

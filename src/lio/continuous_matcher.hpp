@@ -50,7 +50,7 @@ class ContinuousMatcher final : public ScanMatcher {
   AlignOptions options_;
   PoseObservation observation_;
   Executor executor_;
-  float duration_ = 0.0F;  ///< of the scan in work [s]
+  float duration_ = 0.0F;                   ///< of the scan in work [s]
   Vector12 correction_ = Vector12::Zero();  ///< begin, then end: rotation (scan frame), translation
   std::vector<Sums> block_sums_;
   std::vector<LioMap::QueryContext> contexts_;
