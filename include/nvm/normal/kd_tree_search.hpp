@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <nanoflann.hpp>
 
+#include "nvm/geometry/float_lanes.hpp"
+#include "nvm/geometry/moments.hpp"
 #include "nvm/normal/query_block.hpp"
 #include "nvm/normal/sorted_points.hpp"
 
