@@ -221,4 +221,3 @@ BENCHMARK(eigen_library);
 
 }  // namespace
 }  // namespace nvm
-

@@ -114,7 +114,9 @@ TEST_F(LidarOdometryTest, DeskewsASweepMadeInMotion) {
   for (int k = 0; k <= 15; ++k) {
     const FrameResult frame = odometry->process(sweep(0.1 * k, truth));
     ASSERT_EQ(frame.status, FrameStatus::kTracking) << "scan " << k;
-    ASSERT_LT(distance(frame.T_map_body, truth(0.1 * k)), 0.04) << "scan " << k;
+    // Nothing yet says how fast the first moving sweep moved: up to 8 cm while it was made.
+    const double bound = k == 1 ? 0.08 : 0.04;
+    ASSERT_LT(distance(frame.T_map_body, truth(0.1 * k)), bound) << "scan " << k;
   }
 }
 

@@ -109,7 +109,7 @@ struct Deviator {
 
 template <class Real>
 Real third_of_trace(const Symmetric3<Real>& m) {
-  return (m.xx + m.yy + m.zz) * constant<Real>(1.0 / 3.0);
+  return (m.xx + m.yy + m.zz) / constant<Real>(3.0);  // a product could be fused with what follows
 }
 
 template <class Real>

@@ -38,15 +38,11 @@ namespace nvm {
 /// back surface, so that the two faces of a thin wall never meet, bounded by an exact LRU. Models
 /// the map concept.
 ///
-/// - Positions are stored on a lattice of voxel_size / 8192 (37 um at 0.3 m), normals to 0.4
-/// degrees. Distances and angles
-///   are those of the stored values, in exact integer arithmetic: the same input gives the same map
-///   and the same neighbours on any machine and for any number of threads.
-/// - Coordinates reach to +-2^20 voxels per axis.
-/// - Threads: const members may run from many threads at once; every other member needs the map for
-/// itself.
-/// - Memory: never more than memory_limit_bytes(); pages are taken from the operating system as the
-/// map fills.
+/// - Positions, up to +-2^20 voxels per axis, are stored to voxel_size / 8192 (37 um at 0.3 m),
+///   normals to 0.4 degrees. Distances and angles are those of the stored values in exact integers:
+///   the same input gives the same map and the same neighbours for any number of threads.
+/// - Const members may run from many threads at once; the others need the map for themselves.
+/// - Memory never exceeds memory_limit_bytes(); its pages are taken as the map fills.
 /// - Queries mark the voxels that they answer from as used, which is what the LRU order goes by.
 class VoxelMap {
  public:

@@ -7,22 +7,19 @@
 #include <cstdint>
 
 #include "nvm/core/assert.hpp"
-#include "nvm/map/neighbor.hpp"
 #include "nvm/map/storage/brick.hpp"
 #include "nvm/map/storage/brick_table.hpp"
-#include "nvm/map/storage/lanes.hpp"
 #include "nvm/map/storage/lattice.hpp"
 #include "nvm/map/storage/map_capacity.hpp"
-#include "nvm/map/storage/point_chunk.hpp"
 #include "nvm/map/storage/pool.hpp"
 #include "nvm/map/storage/recency.hpp"
-#include "nvm/map/storage/surface_moments.hpp"
+#include "nvm/map/storage/surface_storage.hpp"
 
 namespace nvm::detail {
 
 /// Where things lie: bricks of voxels, chunks of points, and the order of use. Keeps the links
 /// between them right; knows no rule of what belongs where. docs/map_layout.md has the drawing.
-class VoxelStorage {
+class VoxelStorage : public SurfaceStorage {
   // Where a free element keeps the index of the next free one.
   auto voxel_link() noexcept {
     return [this](std::uint32_t i) -> std::uint32_t& { return places_[i]; };
@@ -30,21 +27,15 @@ class VoxelStorage {
   auto brick_link() noexcept {
     return [this](std::uint32_t i) -> std::uint32_t& { return bricks_[i].head[0]; };
   }
-  auto chunk_link() noexcept {
-    return [this](std::uint32_t i) -> std::uint32_t& { return chunks_[i].next; };
-  }
 
  public:
   explicit VoxelStorage(const MapCapacity& capacity)
-      : voxel_ids_(capacity.voxels),
+      : SurfaceStorage(capacity.chunks),
+        voxel_ids_(capacity.voxels),
         brick_ids_(capacity.bricks),
-        chunk_ids_(capacity.chunks),
         places_(allocate_uninitialized<std::uint32_t>(capacity.voxels)),
         recency_(capacity.voxels),
-        bricks_(allocate_uninitialized<Brick>(capacity.bricks)),
-        chunks_(allocate_uninitialized<PointChunk>(capacity.chunks)),
-        normals_(allocate_uninitialized<NormalChunk>(capacity.chunks)),
-        moments_(allocate_uninitialized<SurfaceMoments>(capacity.chunks)) {}
+        bricks_(allocate_uninitialized<Brick>(capacity.bricks)) {}
 
   // --- reading
 
@@ -55,8 +46,6 @@ class VoxelStorage {
     return brick < brick_ids_.high_water() && bricks_[brick].key == key;
   }
   const Brick& brick(std::uint32_t id) const noexcept { return bricks_[id]; }
-  const PointChunk& chunk(std::uint32_t id) const noexcept { return chunks_[id]; }
-  const NormalChunk& normals(std::uint32_t chunk) const noexcept { return normals_[chunk]; }
 
   /// Head chunk of the voxel's front surface, or kNone when there is no such voxel.
   std::uint32_t find_voxel(const VoxelIndex& voxel) const noexcept {
@@ -74,11 +63,12 @@ class VoxelStorage {
     return bricks_[places_[voxel] / kBrickCells].head[places_[voxel] % kBrickCells];
   }
 
+  using SurfaceStorage::point_count;
   /// Points in all surfaces of `voxel`.
   std::size_t point_count(std::uint32_t voxel) const noexcept {
     std::size_t count = 0;
-    for (std::uint32_t head = head_of(voxel); head != kNone; head = chunks_[head].next_surface) {
-      count += chunks_[head].size;
+    for (std::uint32_t head = head_of(voxel); head != kNone; head = chunk(head).next_surface) {
+      count += chunk(head).size;
     }
     return count;
   }
@@ -131,7 +121,6 @@ class VoxelStorage {
     }
   }
 
-  std::size_t point_count() const noexcept { return point_count_; }
   std::size_t voxel_count() const noexcept { return voxel_ids_.taken(); }
   std::size_t brick_count() const noexcept { return brick_ids_.taken(); }
   const Recency& recency() const noexcept { return recency_; }
@@ -141,21 +130,20 @@ class VoxelStorage {
   std::size_t memory_bytes() const noexcept {
     return voxel_ids_.high_water() * sizeof(std::uint32_t) +
            recency_.used_bytes(voxel_ids_.high_water()) + brick_ids_.high_water() * sizeof(Brick) +
-           table_.bytes() + chunk_ids_.high_water() * MapCapacity::kBytesPerChunk;
+           table_.bytes() + chunk_bytes();
   }
 
   // --- changing
 
   bool voxels_exhausted() const noexcept { return voxel_ids_.exhausted(); }
   bool bricks_exhausted() const noexcept { return brick_ids_.exhausted(); }
-  bool chunks_exhausted() const noexcept { return chunk_ids_.exhausted(); }
 
   /// Makes the voxel `index`, used now, with an empty front surface, and returns its head. There
   /// must be no such voxel, and room for a voxel, a chunk and, unless its brick exists, a brick.
   /// Throws std::bad_alloc, changing nothing.
   std::uint32_t create_voxel(const VoxelIndex& index) {
     const std::uint32_t head = place_voxel(index);
-    recency_.add(chunks_[head].voxel);
+    recency_.add(chunk(head).voxel);
     return head;
   }
 
@@ -163,67 +151,18 @@ class VoxelStorage {
   /// impossible.
   std::uint32_t restore_voxel(const VoxelIndex& index, std::uint32_t listed, std::uint32_t stamp) {
     const std::uint32_t head = place_voxel(index);
-    return recency_.restore({chunks_[head].voxel, listed, stamp}) ? head : kNone;
-  }
-
-  /// An empty surface of `voxel`, not linked to the others yet. There must be room for a chunk.
-  std::uint32_t create_surface(std::uint32_t voxel) noexcept {
-    const std::uint32_t head = take_chunk(voxel);
-    PointChunk& chunk = chunks_[head];
-    chunk.next_surface = kNone;
-    chunk.direction = {};
-    chunk.size = 0;
-    chunk.tight = 0;
-    moments_[head] = {};
-    return head;
-  }
-  void link_surface(std::uint32_t last_head, std::uint32_t head) noexcept {
-    chunks_[last_head].next_surface = head;
-  }
-
-  /// Adds a point to the surface at `head`, whose last chunk is `last`. There must be room for a
-  /// chunk when `last` is full. The principal direction is up to date afterwards. Returns the new
-  /// last chunk.
-  std::uint32_t append(
-      std::uint32_t head,
-      std::uint32_t last,
-      const WrappedPoint& point,
-      const StoredNormal& normal) noexcept {
-    PointChunk& surface = chunks_[head];
-    const int lane = surface.size % kLanes;
-    if (lane == 0 && surface.size > 0) {
-      const std::uint32_t added = take_chunk(surface.voxel);
-      chunks_[last].next = added;
-      last = added;
-    }
-    chunks_[last].set_position(lane, point);
-    normals_[last].set(lane, normal);
-    surface.size = static_cast<std::uint8_t>((surface.size + 1) & 0x7f);
-    moments_[head].add(normal);
-    update_direction(head, normal);
-    ++point_count_;
-    return last;
-  }
-
-  /// Returns all chunks of a surface. Whatever links to it must be changed by the caller.
-  void release_surface(std::uint32_t head) noexcept {
-    point_count_ -= chunks_[head].size;
-    for (std::uint32_t id = head; id != kNone;) {
-      const std::uint32_t next = chunks_[id].next;
-      chunk_ids_.give_back(id, chunk_link());
-      id = next;
-    }
+    return recency_.restore({chunk(head).voxel, listed, stamp}) ? head : kNone;
   }
 
   /// Makes `head` the front surface of its voxel.
   void set_front(std::uint32_t head) noexcept {
-    const std::uint32_t place = places_[chunks_[head].voxel];
+    const std::uint32_t place = places_[chunk(head).voxel];
     bricks_[place / kBrickCells].head[place % kBrickCells] = head;
   }
 
   void erase_voxel(std::uint32_t voxel) noexcept {
     for (std::uint32_t head = head_of(voxel); head != kNone;) {
-      const std::uint32_t next = chunks_[head].next_surface;
+      const std::uint32_t next = chunk(head).next_surface;
       release_surface(head);
       head = next;
     }
@@ -238,9 +177,8 @@ class VoxelStorage {
     }
     voxel_ids_.clear();
     brick_ids_.clear();
-    chunk_ids_.clear();
+    clear_surfaces();
     recency_.clear();
-    point_count_ = 0;
   }
 
   /// Removes a voxel whose surfaces have all been released.
@@ -264,41 +202,6 @@ class VoxelStorage {
     bricks_[brick].head[cell] = head;
     bricks_[brick].occupied |= std::uint64_t{1} << cell;
     return head;
-  }
-
-  std::uint32_t take_chunk(std::uint32_t voxel) noexcept {
-    const std::uint32_t id = chunk_ids_.take(chunk_link());
-    NVM_ASSERT(id != kNone);
-    chunks_[id].next = kNone;
-    chunks_[id].voxel = voxel;
-    return id;
-  }
-
-  /// After `added` has joined the surface.
-  void update_direction(std::uint32_t head, const StoredNormal& added) noexcept {
-    PointChunk& surface = chunks_[head];
-    if (surface.size == 1) {
-      surface.direction = added;
-      surface.tight = 1;
-      return;
-    }
-    if (is_principal(moments_[head], surface.direction)) {  // still: the usual case
-      surface.tight = surface.tight != 0 && dot(added, surface.direction) > kTightDot ? 1 : 0;
-      return;
-    }
-    surface.direction = principal_direction(moments_[head]);
-    surface.tight = is_tight(head) ? 1 : 0;
-  }
-
-  bool is_tight(std::uint32_t head) const noexcept {
-    int left = chunks_[head].size;
-    for (std::uint32_t id = head; left > 0; id = chunks_[id].next, left -= kLanes) {
-      const std::uint32_t lanes = first_lanes(left);
-      if ((lanes_facing(normals_[id], chunks_[head].direction, kTightDot) & lanes) != lanes) {
-        return false;
-      }
-    }
-    return true;
   }
 
   std::uint32_t find_or_create_brick(const VoxelIndex& index) {
@@ -349,15 +252,10 @@ class VoxelStorage {
 
   IndexAllocator voxel_ids_;
   IndexAllocator brick_ids_;
-  IndexAllocator chunk_ids_;
   RawArray<std::uint32_t> places_;  // of a voxel: brick * kBrickCells + cell
   Recency recency_;
   BrickTable table_;
   RawArray<Brick> bricks_;
-  RawArray<PointChunk> chunks_;
-  RawArray<NormalChunk> normals_;
-  RawArray<SurfaceMoments> moments_;  // of head chunks
-  std::size_t point_count_ = 0;
 };
 
 }  // namespace nvm::detail

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "nvm/core/assert.hpp"
+#include "nvm/map/storage/lanes.hpp"
+#include "nvm/map/storage/map_capacity.hpp"
+#include "nvm/map/storage/point_chunk.hpp"
+#include "nvm/map/storage/pool.hpp"
+#include "nvm/map/storage/surface_moments.hpp"
+
+namespace nvm::detail {
+
+/// The chunks of all surfaces, with their normals and principal directions. Which voxel a surface
+/// belongs to is VoxelStorage's business.
+class SurfaceStorage {
+  // Where a free chunk keeps the index of the next free one.
+  auto chunk_link() noexcept {
+    return [this](std::uint32_t i) -> std::uint32_t& { return chunks_[i].next; };
+  }
+
+ public:
+  explicit SurfaceStorage(std::size_t capacity)
+      : chunk_ids_(capacity),
+        chunks_(allocate_uninitialized<PointChunk>(capacity)),
+        normals_(allocate_uninitialized<NormalChunk>(capacity)),
+        moments_(allocate_uninitialized<SurfaceMoments>(capacity)) {}
+
+  const PointChunk& chunk(std::uint32_t id) const noexcept { return chunks_[id]; }
+  const NormalChunk& normals(std::uint32_t chunk) const noexcept { return normals_[chunk]; }
+  /// Points in all surfaces.
+  std::size_t point_count() const noexcept { return point_count_; }
+  bool chunks_exhausted() const noexcept { return chunk_ids_.exhausted(); }
+
+  /// An empty surface of `voxel`, not linked to the others yet. There must be room for a chunk.
+  std::uint32_t create_surface(std::uint32_t voxel) noexcept {
+    const std::uint32_t head = take_chunk(voxel);
+    PointChunk& chunk = chunks_[head];
+    chunk.next_surface = kNone;
+    chunk.direction = {};
+    chunk.size = 0;
+    chunk.tight = 0;
+    moments_[head] = {};
+    return head;
+  }
+  void link_surface(std::uint32_t last_head, std::uint32_t head) noexcept {
+    chunks_[last_head].next_surface = head;
+  }
+
+  /// Adds a point to the surface at `head`, whose last chunk is `last`. There must be room for a
+  /// chunk when `last` is full. The principal direction is up to date afterwards. Returns the new
+  /// last chunk.
+  std::uint32_t append(
+      std::uint32_t head,
+      std::uint32_t last,
+      const WrappedPoint& point,
+      const StoredNormal& normal) noexcept {
+    PointChunk& surface = chunks_[head];
+    const int lane = surface.size % kLanes;
+    if (lane == 0 && surface.size > 0) {
+      const std::uint32_t added = take_chunk(surface.voxel);
+      chunks_[last].next = added;
+      last = added;
+    }
+    chunks_[last].set_position(lane, point);
+    normals_[last].set(lane, normal);
+    surface.size = static_cast<std::uint8_t>((surface.size + 1) & 0x7f);
+    moments_[head].add(normal);
+    update_direction(head, normal);
+    ++point_count_;
+    return last;
+  }
+
+  /// Returns all chunks of a surface. Whatever links to it must be changed by the caller.
+  void release_surface(std::uint32_t head) noexcept {
+    point_count_ -= chunks_[head].size;
+    for (std::uint32_t id = head; id != kNone;) {
+      const std::uint32_t next = chunks_[id].next;
+      chunk_ids_.give_back(id, chunk_link());
+      id = next;
+    }
+  }
+
+ protected:
+  std::size_t chunk_bytes() const noexcept {
+    return chunk_ids_.high_water() * MapCapacity::kBytesPerChunk;
+  }
+  void clear_surfaces() noexcept {
+    chunk_ids_.clear();
+    point_count_ = 0;
+  }
+
+ private:
+  std::uint32_t take_chunk(std::uint32_t voxel) noexcept {
+    const std::uint32_t id = chunk_ids_.take(chunk_link());
+    NVM_ASSERT(id != kNone);
+    chunks_[id].next = kNone;
+    chunks_[id].voxel = voxel;
+    return id;
+  }
+
+  /// After `added` has joined the surface.
+  void update_direction(std::uint32_t head, const StoredNormal& added) noexcept {
+    PointChunk& surface = chunks_[head];
+    if (surface.size == 1) {
+      surface.direction = added;
+      surface.tight = 1;
+      return;
+    }
+    if (is_principal(moments_[head], surface.direction)) {  // still: the usual case
+      surface.tight = surface.tight != 0 && dot(added, surface.direction) > kTightDot ? 1 : 0;
+      return;
+    }
+    surface.direction = principal_direction(moments_[head]);
+    surface.tight = is_tight(head) ? 1 : 0;
+  }
+
+  bool is_tight(std::uint32_t head) const noexcept {
+    int left = chunks_[head].size;
+    for (std::uint32_t id = head; left > 0; id = chunks_[id].next, left -= kLanes) {
+      const std::uint32_t lanes = first_lanes(left);
+      if ((lanes_facing(normals_[id], chunks_[head].direction, kTightDot) & lanes) != lanes) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  IndexAllocator chunk_ids_;
+  RawArray<PointChunk> chunks_;
+  RawArray<NormalChunk> normals_;
+  RawArray<SurfaceMoments> moments_;  // of head chunks
+  std::size_t point_count_ = 0;
+};
+
+}  // namespace nvm::detail
