@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <mutex>
 #include <numeric>
 #include <random>
@@ -60,6 +61,16 @@ TYPED_TEST(ExecutorLaws, CutsTheRangeAsTheSerialExecutorDoes) {
       EXPECT_EQ(blocks_of(TypeParam{}, size, grain), blocks_of(SerialExecutor{}, size, grain));
     }
   }
+}
+
+TYPED_TEST(ExecutorLaws, CountsAGrainOfZeroAsOne) {
+  EXPECT_EQ(blocks_of(TypeParam{}, 3, 0), (std::vector<Block>{{0, 1}, {1, 2}, {2, 3}}));
+  EXPECT_TRUE(blocks_of(TypeParam{}, 0, 0).empty());
+}
+
+TYPED_TEST(ExecutorLaws, TakesTheLargestGrainAsOneBlock) {
+  const std::size_t largest = std::numeric_limits<std::size_t>::max();
+  EXPECT_EQ(blocks_of(TypeParam{}, 3, largest), (std::vector<Block>{{0, 3}}));
 }
 
 TYPED_TEST(ExecutorLaws, DoesNothingWithAnEmptyRange) {

@@ -6,9 +6,10 @@
 #error "nvm/core/executor_openmp.hpp needs OpenMP: compile with -fopenmp or link OpenMP::OpenMP_CXX"
 #endif
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+
+#include "nvm/core/executor.hpp"
 
 namespace nvm {
 
@@ -16,11 +17,11 @@ namespace nvm {
 struct OpenMpExecutor {
   template <class Body>
   void for_blocks(std::size_t size, std::size_t grain, const Body& body) const {
-    const auto blocks = static_cast<std::int64_t>((size + grain - 1) / grain);
+    const detail::Blocks blocks(size, grain);
+    const auto count = static_cast<std::int64_t>(blocks.count());
 #pragma omp parallel for schedule(dynamic)
-    for (std::int64_t block = 0; block < blocks; ++block) {
-      const std::size_t begin = static_cast<std::size_t>(block) * grain;
-      body(begin, std::min(begin + grain, size));
+    for (std::int64_t block = 0; block < count; ++block) {
+      blocks.run(static_cast<std::size_t>(block), body);
     }
   }
 };

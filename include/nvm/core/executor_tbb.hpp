@@ -4,9 +4,9 @@
 
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
 #include <cstddef>
 
+#include "nvm/core/executor.hpp"
 #include "nvm/core/thread_sanitizer.hpp"
 
 namespace nvm {
@@ -16,14 +16,14 @@ namespace nvm {
 struct TbbExecutor {
   template <class Body>
   void for_blocks(std::size_t size, std::size_t grain, const Body& body) const {
-    const std::size_t blocks = (size + grain - 1) / grain;
+    const detail::Blocks blocks(size, grain);
     const auto run_block = [&](std::size_t block) {
       detail::tasks_forked.passed();
-      body(block * grain, std::min((block + 1) * grain, size));
+      blocks.run(block, body);
       detail::tasks_joined.reached();
     };
     detail::tasks_forked.reached();
-    tbb::parallel_for(std::size_t{0}, blocks, run_block);
+    tbb::parallel_for(std::size_t{0}, blocks.count(), run_block);
     detail::tasks_joined.passed();
   }
 };

@@ -65,6 +65,8 @@ class NormalEstimator {
       const Points& points,
       const Viewpoint& viewpoint,
       const Executor& executor = {}) & {
+    static_assert(
+        is_point_range_v<Queries>, "nvm: queries must have size() and operator[] of points");
     static_assert(is_point_v<Viewpoint>, "nvm: estimate_at() takes one viewpoint for all points");
     prepare_cloud(points, viewpoint, executor);
     localize(queries, viewpoint, position(viewpoint), result_.status, executor);
@@ -87,6 +89,11 @@ class NormalEstimator {
 
   template <class Points, class Viewpoints, class Executor>
   void prepare_cloud(const Points& points, const Viewpoints& viewpoints, const Executor& executor) {
+    static_assert(
+        is_point_range_v<Points>, "nvm: points must have size() and operator[] of points");
+    static_assert(
+        is_point_v<Viewpoints> || is_point_range_v<Viewpoints>,
+        "nvm: viewpoints must be one point or have size() and operator[] of points");
     localize(points, viewpoints, local_origin(viewpoints), cloud_status_, executor);
     sorter_.sort(local_, cloud_status_, sort_edge(), cloud_);
     if (options_.method == NormalMethod::kPerCell) {
@@ -119,11 +126,6 @@ class NormalEstimator {
       const Eigen::Vector3d& origin,
       std::vector<NormalStatus>& status,
       const Executor& executor) {
-    static_assert(
-        is_point_range_v<Points>, "nvm: points must have size() and operator[] of points");
-    static_assert(
-        is_point_v<Viewpoints> || is_point_range_v<Viewpoints>,
-        "nvm: viewpoints must be one point or have size() and operator[] of points");
     if constexpr (!is_point_v<Viewpoints>) {
       require(
           viewpoints.size() == points.size(),
