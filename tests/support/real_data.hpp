@@ -8,14 +8,12 @@
 
 namespace nvm::test {
 
-/// The folder of real scans: $NVM_DATA, or ../shared/data beside the source tree; empty without
-/// one.
+/// The folder of real scans: $NVM_DATA, or ../shared/data beside the source tree, which the build
+/// names (__FILE__ is relative under ccache); empty without one.
 inline std::string real_data() {
   const char* variable = std::getenv("NVM_DATA");
-  const std::filesystem::path source_root =
-      std::filesystem::path(__FILE__).parent_path().parent_path().parent_path();
   const std::filesystem::path folder =
-      variable != nullptr ? std::filesystem::path(variable) : source_root / "../shared/data";
+      variable != nullptr ? variable : NVM_SOURCE_DIR "/../shared/data";
   return std::filesystem::is_directory(folder) ? folder.string() : "";
 }
 
