@@ -29,3 +29,22 @@ function(nvm_add_test name)
   target_link_libraries(${name} PRIVATE nvm::nvm nvm_warnings GTest::gmock_main ${arg_LIBRARIES})
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES LABELS "${arg_LABELS}")
 endfunction()
+
+# nvm_lint_headers(NAME ROOT FOLDERS folders... CHECKS checks): every header of the folders through clang-tidy
+# (CMAKE_CXX_CLANG_TIDY), which else sees only those that some source file includes. CHECKS are added to .clang-tidy's.
+function(nvm_lint_headers name root)
+  cmake_parse_arguments(arg "" "CHECKS" "FOLDERS" ${ARGN})
+  list(TRANSFORM arg_FOLDERS APPEND "/*.hpp" OUTPUT_VARIABLE patterns)
+  list(TRANSFORM patterns PREPEND "${root}/")
+  file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${root} ${patterns})
+  list(TRANSFORM headers REPLACE "(.+)" "#include \"\\1\"\n")
+  list(JOIN headers "" content)
+  set(source ${PROJECT_BINARY_DIR}/${name}.cpp)
+  file(CONFIGURE OUTPUT ${source} CONTENT "${content}" @ONLY)
+  add_library(${name} OBJECT ${source})
+  target_include_directories(${name} PRIVATE ${root})
+  target_link_libraries(${name} PRIVATE nvm::nvm nvm_warnings OpenMP::OpenMP_CXX TBB::tbb)
+  # The generated file lies where no .clang-tidy is found.
+  set(lint ${CMAKE_CXX_CLANG_TIDY} --config-file=${PROJECT_SOURCE_DIR}/.clang-tidy "--checks=${arg_CHECKS}")
+  set_target_properties(${name} PROPERTIES CXX_CLANG_TIDY "${lint}")
+endfunction()

@@ -91,8 +91,7 @@ class HostMap {
         *map_,
         to_grid(point),
         gated ? normal : Eigen::Vector3f(Eigen::Vector3f::Zero()),
-        search,
-        options_.reach,
+        {search, options_.reach},
         out);
     if (options_.grid_offset != 0.0) {
       std::for_each(out, out + count, [this](Neighbor& n) { n.position = from_grid(n.position); });

@@ -77,16 +77,22 @@ std::size_t nearest_wide(
   }
 }
 
-/// VoxelMap::nearest, and when the 27 voxels do not settle the answer within search.max_distance,
-/// nearest_wide to at most `reach` [m]; 0: never. A zero `normal` sees both sides. Beyond the 27
-/// voxels only the normals of points are compared, not those of surfaces.
+/// A search that may go on beyond the 27 voxels around the query.
+struct ReachingSearch {
+  NearestSearch nearest;
+  double reach = 0.0;  ///< at most so far [m]; 0: never beyond
+};
+
+/// VoxelMap::nearest, and when the 27 voxels do not settle the answer within
+/// reaching.nearest.max_distance, nearest_wide to at most reaching.reach. A zero `normal` sees both
+/// sides. Beyond the 27 voxels only the normals of points are compared, not those of surfaces.
 inline std::size_t nearest_within_reach(
     const VoxelMap& map,
     const Eigen::Vector3d& point,
     const Eigen::Vector3f& normal,
-    const NearestSearch& search,
-    double reach,
+    const ReachingSearch& reaching,
     Neighbor* out) {
+  const auto& [search, reach] = reaching;
   thread_local VoxelMap::QueryContext context;
   const bool gated = !normal.isZero(0.0F);
   const std::size_t count = gated ? map.nearest(point, normal, search, out, context)

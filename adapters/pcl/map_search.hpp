@@ -72,8 +72,7 @@ class MapSearch : public ::pcl::search::Search<PointT> {
         map_,
         position(point),
         Eigen::Vector3f::Zero(),
-        {wanted, kEverywhere, Gate::kSurfaces},
-        kEverywhere,
+        {{wanted, kEverywhere, Gate::kSurfaces}, kEverywhere},
         found.data());
     return copy({found.begin(), found.begin() + count}, indices, sq_distances);
   }

@@ -66,6 +66,8 @@ class KdTreeMap {
   }
 
   /// The nearest stored points (see map_concept.hpp); `normal` is ignored.
+  // nanoflann throws only where no tree has been built.
+  // NOLINTNEXTLINE(bugprone-exception-escape)
   std::size_t nearest(
       const Eigen::Vector3d& point,
       const Eigen::Vector3f& /*normal*/,

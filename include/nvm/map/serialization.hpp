@@ -178,16 +178,16 @@ class MapArchive {
       check(
           !storage.voxels_exhausted() && !storage.bricks_exhausted() && !storage.chunks_exhausted(),
           "is corrupt: it holds more than its limits allow");
-      std::uint32_t head = storage.restore_voxel(index, listed, stamp);
-      check(head != detail::kNone, "is corrupt: impossible order of use");
-      const std::uint32_t voxel = storage.chunk(head).voxel;
-      read_surface(in, map, index, head);
+      std::uint32_t last_head = storage.restore_voxel(index, listed, stamp);
+      check(last_head != detail::kNone, "is corrupt: impossible order of use");
+      const std::uint32_t voxel = storage.chunk(last_head).voxel;
+      read_surface(in, map, index, last_head);
       for (int surface = 1; surface < surfaces; ++surface) {
         check(!storage.chunks_exhausted(), "is corrupt: it holds more than its limits allow");
-        const std::uint32_t next = storage.create_surface(voxel);
-        storage.link_surface(head, next);
-        read_surface(in, map, index, next);
-        head = next;
+        const std::uint32_t head = storage.create_surface(voxel);
+        storage.link_surface(last_head, head);
+        read_surface(in, map, index, head);
+        last_head = head;
       }
     }
     storage.recency().begin_epoch();

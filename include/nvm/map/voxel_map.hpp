@@ -251,19 +251,19 @@ class VoxelMap {
     const std::uint32_t brick =
         context.find_brick(storage_, detail::index_key(detail::brick_index(point.voxel)));
     const detail::NearestQuery<Gate> query(storage_, point, gate);
-    detail::Candidates found;
+    detail::Candidates found(wanted);
     for (std::int32_t reach = context.guess(wanted, limit);; reach = limit) {
-      query.collect(brick, reach, wanted, found);
+      query.collect(brick, reach, found);
       if (found.count() >= wanted || reach == limit) {
         break;
       }
     }
     std::array<std::uint8_t, kMaxNeighbors> order;
-    const int count = found.nearest(wanted, order.data());
+    const int count = found.nearest(order.data());
     const auto last = static_cast<std::size_t>(std::max(count, 1) - 1);
     context.learn(wanted, count == wanted ? found.sq_distance(order[last]) : limit);
     const detail::WrappedPoint from = detail::wrap(point);
-    const Eigen::Vector3d origin = lattice_.steps(point);
+    const Eigen::Vector3d origin = detail::Lattice::steps(point);
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
       const PointId id = found.id(order[i]);
       const detail::PointChunk& chunk = storage_.chunk(id / detail::kLanes);

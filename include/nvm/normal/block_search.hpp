@@ -80,11 +80,11 @@ class BlockSearch {
   // Adds what the lists hold to the sums, and empties the lists.
   void add(
       const QueryBlock& query, NodeList& inside, NodeList& rim, Moments<FloatLanes>& sums) const {
-    const FloatLanes one = constant<FloatLanes>(1.0);
+    const auto one = constant<FloatLanes>(1.0);
     Moments<FloatLanes> sum = sums;  // in registers
     for (std::size_t i = 0; i < inside.size(); ++i) {
       const Cluster& c = tree_.clusters[inside[i]];
-      add_cluster(c, one, c.x - query.x, c.y - query.y, c.z - query.z, sum);
+      add_cluster(c, {one, c.x - query.x, c.y - query.y, c.z - query.z}, sum);
     }
     for (std::size_t i = 0; i < rim.size(); ++i) {
       const std::size_t first = std::size_t{rim[i]} * BlockTree::kLeafSize;

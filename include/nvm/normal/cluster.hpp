@@ -45,27 +45,25 @@ Cluster merge(std::size_t count, const Part& part) {
   return sum;
 }
 
-/// Adds a cluster whose mean lies at (dx, dy, dz) from the query: all of it where `weight` is one,
-/// nothing where it is zero.
-inline void add_cluster(
-    const Cluster& cluster,
-    const FloatLanes& weight,
-    const FloatLanes& dx,
-    const FloatLanes& dy,
-    const FloatLanes& dz,
-    Moments<FloatLanes>& sum) {
-  const FloatLanes count = cluster.count * weight;
-  const FloatLanes x = count * dx, y = count * dy, z = count * dz;
+/// Where something is from each query, and whether it counts there: the weight is one or zero.
+struct Offset {
+  FloatLanes weight, x, y, z;
+};
+
+/// Adds a cluster whose mean lies at `d` from the query.
+inline void add_cluster(const Cluster& cluster, const Offset& d, Moments<FloatLanes>& sum) {
+  const FloatLanes count = cluster.count * d.weight;
+  const FloatLanes x = count * d.x, y = count * d.y, z = count * d.z;
   sum.count += count;
   sum.x += x;
   sum.y += y;
   sum.z += z;
-  sum.xx += cluster.xx * weight + x * dx;
-  sum.xy += cluster.xy * weight + x * dy;
-  sum.xz += cluster.xz * weight + x * dz;
-  sum.yy += cluster.yy * weight + y * dy;
-  sum.yz += cluster.yz * weight + y * dz;
-  sum.zz += cluster.zz * weight + z * dz;
+  sum.xx += cluster.xx * d.weight + x * d.x;
+  sum.xy += cluster.xy * d.weight + x * d.y;
+  sum.xz += cluster.xz * d.weight + x * d.z;
+  sum.yy += cluster.yy * d.weight + y * d.y;
+  sum.yz += cluster.yz * d.weight + y * d.z;
+  sum.zz += cluster.zz * d.weight + z * d.z;
 }
 
 }  // namespace nvm::detail

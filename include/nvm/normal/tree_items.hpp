@@ -11,23 +11,16 @@
 
 namespace nvm::detail {
 
-/// Where `point` is from each query, and which queries have it within their radius. The offset is
-/// zero where it is not.
-struct Offset {
-  FloatLanes weight, x, y, z;  // the weight is one or zero
-
-  Offset(const SortedPoints& points, std::size_t point, const QueryBlock& query) {
-    const FloatLanes dx = points.x[point] - query.x;
-    const FloatLanes dy = points.y[point] - query.y;
-    const FloatLanes dz = points.z[point] - query.z;
-    const auto is_near = sq_length(dx, dy, dz) <= query.sq_radius;
-    const FloatLanes zero{}, one = constant<FloatLanes>(1.0);
-    weight = is_near ? one : zero;
-    x = is_near ? dx : zero;
-    y = is_near ? dy : zero;
-    z = is_near ? dz : zero;
-  }
-};
+/// Where `point` is from the queries that have it within their radius; zero for the others.
+inline Offset offset_within_radius(
+    const SortedPoints& points, std::size_t point, const QueryBlock& query) {
+  const FloatLanes dx = points.x[point] - query.x;
+  const FloatLanes dy = points.y[point] - query.y;
+  const FloatLanes dz = points.z[point] - query.z;
+  const auto is_near = sq_length(dx, dy, dz) <= query.sq_radius;
+  const FloatLanes zero{}, one = constant<FloatLanes>(1.0);
+  return {is_near ? one : zero, is_near ? dx : zero, is_near ? dy : zero, is_near ? dz : zero};
+}
 
 /// What a BlockTree holds: the points of a scan.
 struct PointItems {
@@ -38,7 +31,7 @@ struct PointItems {
 
   /// Adds item `i` to the sums of the queries that have it within their radius.
   void add_if_near(std::size_t i, const QueryBlock& query, Moments<FloatLanes>& sum) const {
-    const Offset d(points, i, query);
+    const Offset d = offset_within_radius(points, i, query);
     sum.add(d.weight, d.x, d.y, d.z);
   }
 };
@@ -52,8 +45,7 @@ struct CellItems {
   const Cluster& cluster(std::size_t i) const { return cells[i]; }
 
   void add_if_near(std::size_t i, const QueryBlock& query, Moments<FloatLanes>& sum) const {
-    const Offset d(means, i, query);
-    add_cluster(cells[i], d.weight, d.x, d.y, d.z, sum);
+    add_cluster(cells[i], offset_within_radius(means, i, query), sum);
   }
 };
 

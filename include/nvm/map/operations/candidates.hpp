@@ -20,6 +20,9 @@ class Candidates {
  public:
   static constexpr int kRoom = 256;
 
+  /// For a query of the `wanted` nearest, of which there is at least one.
+  explicit Candidates(int wanted) noexcept : wanted_(wanted) {}
+
   int count() const noexcept { return count_; }
   bool full() const noexcept { return count_ > kRoom - kLanes; }
   std::int32_t sq_distance(int index) const noexcept { return sq_distances_[index]; }
@@ -35,28 +38,28 @@ class Candidates {
     count_ += __builtin_popcount(mask);
   }
 
-  /// Writes the indices of the `wanted` nearest candidates, nearest first, to `order` and returns
+  /// Writes the indices of the wanted nearest candidates, nearest first, to `order` and returns
   /// how many there are. Of equally near ones the candidate met first comes first.
-  int nearest(int wanted, std::uint8_t* order) noexcept {
+  int nearest(std::uint8_t* order) noexcept {
     if (count_ > kMaxRanked) {
-      keep_nearest(wanted);
+      keep_nearest();
     }
-    const int found = std::min(count_, wanted);
+    const int found = std::min(count_, wanted_);
     if (!rank(found, order)) {
-      keep_nearest(wanted);
+      keep_nearest();
       std::iota(order, order + found, std::uint8_t{0});
     }
     return found;
   }
 
-  /// Drops all but the `wanted` nearest, and returns the distance that a later candidate must beat.
-  std::int32_t keep_nearest(int wanted) noexcept {
+  /// Drops all but the wanted nearest, and returns the distance that a later candidate must beat.
+  std::int32_t keep_nearest() noexcept {
     std::array<std::uint64_t, kRoom> keys;  // distance, then index
     for (int i = 0; i < count_; ++i) {
       keys[static_cast<std::size_t>(i)] =
           static_cast<std::uint64_t>(sq_distances_[i]) << 32 | static_cast<std::uint32_t>(i);
     }
-    const int kept = std::min(count_, wanted);
+    const int kept = std::min(count_, wanted_);
     std::partial_sort(keys.begin(), keys.begin() + kept, keys.begin() + count_);
     std::array<PointId, kMaxRanked> ids;
     for (int i = 0; i < kept; ++i) {
@@ -66,7 +69,7 @@ class Candidates {
     }
     std::copy_n(ids.begin(), kept, ids_);
     count_ = kept;
-    return kept < wanted ? std::numeric_limits<std::int32_t>::max() : sq_distances_[kept - 1];
+    return kept < wanted_ ? std::numeric_limits<std::int32_t>::max() : sq_distances_[kept - 1];
   }
 
  private:
@@ -114,6 +117,7 @@ class Candidates {
 
   alignas(32) std::int32_t sq_distances_[kRoom + 2 * kLanes];
   alignas(32) PointId ids_[kRoom + kLanes];
+  int wanted_;
   int count_ = 0;
 };
 

@@ -54,32 +54,37 @@ struct AxisWindow {
       cells{};  // per axis and brick: mask of cells inside the window
 };
 
+/// The window from place `first` to `last` of the brick that holds the voxel: -1 and 4 lie in the
+/// brick beside it.
+constexpr AxisWindow axis_window(int first, int last) {
+  AxisWindow window;
+  window.bricks = 1;
+  if (first < 0 || last >= kBrickEdge) {
+    window.bricks = 2;
+    window.brick_offset[1] = first < 0 ? -1 : 1;
+  }
+  for (int cell = 0; cell < kBrickCells; ++cell) {
+    const std::array<int, 3> coordinate{cell % 4, cell / 4 % 4, cell / 16};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      for (std::size_t brick = 0; brick < static_cast<std::size_t>(window.bricks); ++brick) {
+        const int place_seen = coordinate[axis] + kBrickEdge * window.brick_offset[brick];
+        if (first <= place_seen && place_seen <= last) {
+          window.cells[axis][brick] |= std::uint64_t{1} << cell;
+        }
+      }
+    }
+  }
+  return window;
+}
+
 /// Windows by the voxel's place in its brick (0 to 3) and by which neighbours are wanted (bit 0:
 /// the lower, bit 1: the upper).
 inline constexpr auto kAxisWindows = [] {
   std::array<std::array<AxisWindow, 4>, kBrickEdge> windows{};
   for (int place = 0; place < kBrickEdge; ++place) {
     for (int wanted = 0; wanted < 4; ++wanted) {
-      AxisWindow& window =
-          windows[static_cast<std::size_t>(place)][static_cast<std::size_t>(wanted)];
-      window.bricks = 1;
-      const int first = place - (wanted & 1);
-      const int last = place + (wanted >> 1);
-      if (first < 0 || last >= kBrickEdge) {
-        window.bricks = 2;
-        window.brick_offset[1] = first < 0 ? -1 : 1;
-      }
-      for (int cell = 0; cell < kBrickCells; ++cell) {
-        const std::array<int, 3> coordinate{cell % 4, cell / 4 % 4, cell / 16};
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          for (std::size_t brick = 0; brick < static_cast<std::size_t>(window.bricks); ++brick) {
-            const int place_seen = coordinate[axis] + kBrickEdge * window.brick_offset[brick];
-            if (first <= place_seen && place_seen <= last) {
-              window.cells[axis][brick] |= std::uint64_t{1} << cell;
-            }
-          }
-        }
-      }
+      windows[static_cast<std::size_t>(place)][static_cast<std::size_t>(wanted)] =
+          axis_window(place - (wanted & 1), place + (wanted >> 1));
     }
   }
   return windows;
@@ -99,9 +104,9 @@ class NearestQuery {
   }
 
   /// Fills `found` with the points whose squared distance is below `limit`; of those only the
-  /// `wanted` nearest need to be there. `brick` is the brick of the query's voxel, or kNone.
+  /// wanted nearest need to be there. `brick` is the brick of the query's voxel, or kNone.
   [[gnu::always_inline]] void collect(
-      std::uint32_t brick, std::int32_t limit, int wanted, Candidates& found) const noexcept {
+      std::uint32_t brick, std::int32_t limit, Candidates& found) const noexcept {
     found.clear();
     const AxisWindow& x = window(0, limit);
     const AxisWindow& y = window(1, limit);
@@ -113,7 +118,7 @@ class NearestQuery {
           const std::uint32_t id = brick_at(brick, offset);
           if (id != kNone) {
             const std::uint64_t cells = x.cells[0][i] & y.cells[1][j] & z.cells[2][k];
-            collect_brick(storage_.brick(id), offset, cells, wanted, limit, found);
+            collect_brick(storage_.brick(id), offset, cells, limit, found);
           }
         }
       }
@@ -140,7 +145,6 @@ class NearestQuery {
       const Brick& brick,
       const VoxelIndex& offset,
       std::uint64_t cells,
-      int wanted,
       std::int32_t& limit,
       Candidates& found) const noexcept {
     constexpr int kMask = kBrickEdge - 1;
@@ -155,17 +159,17 @@ class NearestQuery {
                                   sq_gap_[1][static_cast<std::size_t>(y0 + (cell >> 2 & kMask))] +
                                   sq_gap_[2][static_cast<std::size_t>(z0 + (cell >> 4))];
       if (sq_gap < limit) {
-        collect_voxel(brick.head[static_cast<std::size_t>(cell)], wanted, limit, found);
+        collect_voxel(brick.head[static_cast<std::size_t>(cell)], limit, found);
       }
     }
   }
 
   [[gnu::always_inline]] void collect_voxel(
-      std::uint32_t head, int wanted, std::int32_t& limit, Candidates& found) const noexcept {
+      std::uint32_t head, std::int32_t& limit, Candidates& found) const noexcept {
     for (; head != kNone; head = storage_.chunk(head).next_surface) {
       const PointChunk& surface = storage_.chunk(head);
       if (gate_.reads_surface(surface)) {
-        collect_surface(head, surface, wanted, limit, found);
+        collect_surface(head, surface, limit, found);
       }
     }
   }
@@ -173,7 +177,6 @@ class NearestQuery {
   [[gnu::always_inline]] void collect_surface(
       std::uint32_t head,
       const PointChunk& surface,
-      int wanted,
       std::int32_t& limit,
       Candidates& found) const noexcept {
     const bool tests_points = gate_.tests_points(surface);
@@ -189,7 +192,7 @@ class NearestQuery {
         continue;
       }
       if (found.full()) {
-        limit = std::min(limit, found.keep_nearest(wanted));
+        limit = std::min(limit, found.keep_nearest());
       }
       found.append(mask, distances, id * kLanes);
     }
