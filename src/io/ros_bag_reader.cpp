@@ -15,6 +15,7 @@
 
 #include "io/file.hpp"
 #include "io/imu_gap_monitor.hpp"
+#include "io/ros_bag_check.hpp"
 #include "io/ros_messages.hpp"
 
 namespace nvm::io {
@@ -81,6 +82,7 @@ class RosBag : public SequenceReader {
  public:
   RosBag(std::string path, const SequenceOptions& options)
       : path_(std::move(path)), cloud_converter_(options.point_time_unit) {
+    check_ros_bag(path_);
     try {
       bag_.open(path_, rosbag::bagmode::Read);
       open(options);

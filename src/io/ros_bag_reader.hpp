@@ -13,9 +13,7 @@ namespace nvm::io {
 /// livox_ros_driver2) of one topic and sensor_msgs/Imu of another. IMU messages that repeat or go
 /// back in time, or hold numbers that are not finite, are left out and counted in a note. Throws
 /// std::runtime_error, naming the file, when it is no readable bag, has no such topic, holds a bad
-/// message, or when nvm was built without ROS 1 bags. The library rosbag_storage, which reads the
-/// container, checks a bag's index but not the lengths inside its chunks: a truncated bag is an
-/// error, one with changed bytes can be worse.
+/// message, or when nvm was built without ROS 1 bags.
 std::unique_ptr<SequenceReader> open_ros_bag(
     const std::string& path, const SequenceOptions& options);
 

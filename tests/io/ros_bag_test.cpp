@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "io/ros_bag_writer.hpp"
 #include "io/sequence_reader.hpp"
 #include "io/temporary_folder.hpp"
+#include "support/rng.hpp"
 
 namespace nvm::io {
 namespace {
@@ -195,6 +197,45 @@ TEST_F(RosBag, TruncatedBagsAreAnError) {
     const std::string file = write("cut.bag", whole.substr(0, size));
     EXPECT_THAT(runtime_error_of([&] { read_all(file); }), HasSubstr("cut.bag: ")) << size;
   }
+}
+
+TEST_F(RosBag, ChangedBytesAreAnErrorOrOtherNumbers) {
+  const std::string whole = read_file(write_bag(CloudMessageType::kPointCloud2));
+  auto random = test::rng();
+  std::size_t errors = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    std::string changed = whole;
+    changed[random() % changed.size()] = static_cast<char>(random());
+    try {
+      read_all(write("changed.bag", changed));
+    } catch (const std::runtime_error& error) {
+      EXPECT_THAT(error.what(), HasSubstr("changed.bag: "));
+      ++errors;
+    }
+  }
+  EXPECT_GT(errors, 0U);
+}
+
+TEST_F(RosBag, LengthsAndPositionsAreCheckedBeforeTheyAreFollowed) {
+  const std::string whole = read_file(write_bag(CloudMessageType::kPointCloud2));
+  const auto error_with = [&](const std::string& text, std::size_t behind, char byte) {
+    std::string changed = whole;
+    changed[whole.rfind(text) + text.size() + behind] = byte;
+    const std::string file = write("changed.bag", changed);
+    return runtime_error_of([&] { open_sequence(file); });
+  };
+  EXPECT_THAT(error_with("chunk_pos=", 1, '\x55'), HasSubstr("the index points to no chunk"));
+  EXPECT_THAT(error_with("conn_count=", 0, '\x55'), HasSubstr("connections are missing"));
+  EXPECT_THAT(error_with("compression=none", 3, '\x7f'), HasSubstr("a length goes beyond"));
+  EXPECT_THAT(error_with("index_pos=", 0, '\x55'), HasSubstr("does not belong between chunks"));
+}
+
+TEST_F(RosBag, OneWithoutIndexSaysHowToRepairIt) {
+  std::string open = read_file(write_bag(CloudMessageType::kPointCloud2));
+  const std::string field = "index_pos=";
+  open.replace(open.find(field) + field.size(), 8, std::string(8, '\0'));
+  const std::string file = write("open.bag", open);
+  EXPECT_THAT(runtime_error_of([&] { open_sequence(file); }), HasSubstr("rosbag reindex"));
 }
 
 #endif
