@@ -31,6 +31,7 @@ void bind_map(Schema& schema, PipelineOptions& options) {
   schema.add("points_per_surface", map.points_per_surface, {1.0, 120.0}, "Points at most");
   schema.add(
       "min_point_distance", map.min_point_distance, {0.0, 200.0}, "Between stored points [m]");
+  schema.add("space_across_voxels", map.space_across_voxels, "Also between those of two voxels");
   schema.add("max_surfaces", map.max_surfaces, {1.0, 8.0}, "Surfaces of a voxel");
   schema.add_choice<SurfaceRule>(
       "surface_rule",
@@ -58,6 +59,8 @@ void bind_normals(Schema& schema, NormalOptions& normals) {
   schema.add("max_linearity", normals.max_linearity, {0.334, 1.0}, "First eigenvalue's share");
   schema.add(
       "max_surface_variation", normals.max_surface_variation, {0.0, 0.334}, "Third one's share");
+  schema.add(
+      "max_plane_deviation", normals.max_plane_deviation, kPositive, "Of a neighbourhood [m]");
 }
 
 void bind_imu(Schema& schema, InertialOptions& inertial) {
@@ -96,6 +99,11 @@ void bind_lidar(Schema& schema, InertialOptions& inertial) {
 
 void bind_matching(Schema& schema, PipelineOptions& options) {
   InertialOptions& inertial = options.inertial;
+  schema.add(
+      "max_plane_offset",
+      inertial.max_plane_offset,
+      kNotNegative,
+      "Points move onto their neighbourhood's plane by at most this [m]; 0: never");
   schema.add("keypoint_spacing", inertial.keypoints.spacing, kPositive, "[m]");
   schema.add("max_keypoints", inertial.keypoints.max_count, {10.0, 1e5}, "Per scan");
   schema.add("min_inlier_share", inertial.min_inlier_share, kShare, "Of a frame to be believed");

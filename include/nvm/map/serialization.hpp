@@ -49,7 +49,8 @@ class MapArchive {
     const auto version = file.get<std::uint32_t>();
     check(
         version == kVersion,
-        "has format version " + std::to_string(version) + "; this nvm reads version 1");
+        "has format version " + std::to_string(version) + "; this nvm reads version " +
+            std::to_string(kVersion));
     const auto length = file.get<std::uint64_t>();
     check(
         length == bytes.size() - kHeaderBytes - sizeof(std::uint32_t),
@@ -69,7 +70,7 @@ class MapArchive {
 
  private:
   static constexpr std::uint64_t kMagic = 0x0a0d50414d4d564eULL;  // "NVMMAP\r\n"
-  static constexpr std::uint32_t kVersion = 1;
+  static constexpr std::uint32_t kVersion = 2;
   static constexpr std::size_t kHeaderBytes = 20;
 
   static void check(bool ok, const std::string& problem) {
@@ -84,6 +85,7 @@ class MapArchive {
     out.put(static_cast<std::uint64_t>(options.max_bytes));
     out.put(static_cast<std::int32_t>(options.points_per_surface));
     out.put(options.min_point_distance);
+    out.put(static_cast<std::uint8_t>(options.space_across_voxels));
     out.put(static_cast<std::int32_t>(options.max_surfaces));
     out.put(static_cast<std::uint8_t>(options.surface_rule));
     out.put(options.max_surface_angle);
@@ -99,13 +101,15 @@ class MapArchive {
     options.max_bytes = static_cast<std::size_t>(in.get<std::uint64_t>());
     options.points_per_surface = in.get<std::int32_t>();
     options.min_point_distance = in.get<double>();
+    const auto across = in.get<std::uint8_t>();
     options.max_surfaces = in.get<std::int32_t>();
     const auto rule = in.get<std::uint8_t>();
     options.max_surface_angle = in.get<double>();
     options.max_point_angle = in.get<double>();
     const auto eviction = in.get<std::uint8_t>();
     options.eviction_radius = in.get<double>();
-    check(rule <= 1 && eviction <= 1, "is corrupt: unknown rule");
+    check(across <= 1 && rule <= 1 && eviction <= 1, "is corrupt: unknown rule");
+    options.space_across_voxels = across == 1;
     options.surface_rule = static_cast<SurfaceRule>(rule);
     options.eviction = static_cast<Eviction>(eviction);
     try {

@@ -211,7 +211,7 @@ class VoxelMap {
       throw std::invalid_argument(
           "nvm: T_map_scan must be rigid: finite, with an orthonormal rotation");
     }
-    detail::Insertion insertion(options_, lattice_, storage_, cache_);
+    detail::Insertion insertion(options_, lattice_, gate_, storage_, cache_);
     detail::PointBlock block;
     const auto size = static_cast<std::size_t>(points.size());
     for (std::size_t begin = 0; begin < size; begin += detail::PointBlock::kSize) {

@@ -2,12 +2,15 @@
 // Copyright (c) 2026 The nvm authors
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 
 #include "nvm/map/insert_stats.hpp"
 #include "nvm/map/map_options.hpp"
+#include "nvm/map/operations/candidates.hpp"
+#include "nvm/map/operations/nearest_query.hpp"
 #include "nvm/map/operations/point_block.hpp"
 #include "nvm/map/storage/lanes.hpp"
 #include "nvm/map/storage/lattice.hpp"
@@ -22,9 +25,13 @@ namespace nvm::detail {
 class Insertion {
  public:
   Insertion(
-      const MapOptions& options, const Lattice& lattice, VoxelStorage& storage, VoxelCache& cache)
+      const MapOptions& options,
+      const Lattice& lattice,
+      const NormalGate& gate,
+      VoxelStorage& storage,
+      VoxelCache& cache)
       : options_(options),
-        max_surface_dot_(dot_threshold(options.max_surface_angle)),
+        gate_(gate),
         min_sq_steps_(lattice.sq_steps(options.min_point_distance)),
         storage_(storage),
         cache_(cache),
@@ -34,6 +41,7 @@ class Insertion {
 
   /// Stores the first `count` points of the block; those without normal go to the front surface.
   void insert(const PointBlock& block, std::size_t count) {
+    prefetch(block, count);
     for (std::size_t i = 0; i < count; ++i) {
       switch (block.status(i)) {
         case PointBlock::Status::kOk:
@@ -55,6 +63,37 @@ class Insertion {
   InsertStats& stats() noexcept { return stats_; }
 
  private:
+  /// Starts to load the voxels of the block that the cache does not know: a point in an unvisited
+  /// place would otherwise wait for memory five times in a row.
+  [[gnu::always_inline]] void prefetch(const PointBlock& block, std::size_t count) noexcept {
+    std::array<VoxelIndex, PointBlock::kSize> voxels;
+    std::array<std::uint32_t, PointBlock::kSize> places;  // bricks, then heads
+    std::size_t unknown = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      voxels[unknown] = block.voxel(i);
+      unknown += static_cast<std::size_t>(cache_.at(voxels[unknown]).key != block.key(i));
+    }
+    if (unknown < 8) {
+      return;
+    }
+    for (std::size_t i = 0; i < unknown; ++i) {
+      storage_.prefetch_brick(voxels[i]);
+    }
+    for (std::size_t i = 0; i < unknown; ++i) {
+      places[i] = storage_.prefetch_head(voxels[i]);
+    }
+    for (std::size_t i = 0; i < unknown; ++i) {
+      places[i] = storage_.prefetch_surface(places[i], voxels[i]);
+    }
+    for (std::size_t i = 0; i < unknown; ++i) {
+      if (places[i] != kNone) {
+        const PointChunk& head = storage_.chunk(places[i]);
+        storage_.recency().prefetch(head.voxel);
+        if (head.next != kNone) storage_.prefetch_chunk(head.next);
+      }
+    }
+  }
+
   void insert(
       IndexKey key,
       const VoxelIndex& index,
@@ -122,7 +161,7 @@ class Insertion {
     std::uint32_t surface = front;
     for (int count = 1;; ++count) {
       const PointChunk& chunk = storage_.chunk(surface);
-      if (count == options_.max_surfaces || dot(chunk.direction, normal) > max_surface_dot_) {
+      if (count == options_.max_surfaces || dot(chunk.direction, normal) > gate_.min_surface_dot) {
         return {surface, false};
       }
       if (chunk.next_surface == kNone) {
@@ -147,7 +186,7 @@ class Insertion {
       last = surface;
       ++count;
     }
-    const bool agrees = best_dot > max_surface_dot_;
+    const bool agrees = best_dot > gate_.min_surface_dot;
     return agrees || count == options_.max_surfaces ? Choice{best, false} : Choice{last, true};
   }
 
@@ -169,6 +208,10 @@ class Insertion {
       }
       last = id;
     }
+    if (options_.space_across_voxels && is_neighbor_too_close(head, point, normal)) {
+      ++stats_.too_close;
+      return;
+    }
     const bool needs_chunk = size > 0 && size % kLanes == 0;
     if (needs_chunk && !make_room_for_chunk(storage_.chunk(head).voxel)) {
       ++stats_.map_full;
@@ -176,6 +219,28 @@ class Insertion {
     }
     storage_.append(head, last, point, normal);
     ++stats_.stored;
+  }
+
+  /// Whether a query at `point`, which goes to the surface at `head`, would find a point too close.
+  bool is_neighbor_too_close(
+      std::uint32_t head, const WrappedPoint& point, const StoredNormal& normal) noexcept {
+    if (normal == StoredNormal{}) {
+      return finds_any(NoGate{}, head, point);
+    }
+    gate_.normal = normal;
+    return finds_any(gate_, head, point);
+  }
+
+  template <class Gate>
+  bool finds_any(const Gate& gate, std::uint32_t head, const WrappedPoint& point) const noexcept {
+    const std::uint32_t voxel = storage_.chunk(head).voxel;
+    const LatticePoint place{
+        storage_.index_of(voxel),
+        {step_in_voxel(point.x), step_in_voxel(point.y), step_in_voxel(point.z)}};
+    Candidates found(1);
+    NearestQuery<Gate>(storage_, place, gate)
+        .collect(storage_.brick_of(voxel), min_sq_steps_, found);
+    return found.count() > 0;
   }
 
   bool make_room_for_voxel(const VoxelIndex& index) {
@@ -218,7 +283,7 @@ class Insertion {
   }
 
   const MapOptions& options_;
-  int max_surface_dot_;
+  NormalGate gate_;
   std::int32_t min_sq_steps_;
   VoxelStorage& storage_;
   VoxelCache& cache_;

@@ -31,6 +31,12 @@ class SurfaceStorage {
 
   const PointChunk& chunk(std::uint32_t id) const noexcept { return chunks_[id]; }
   const NormalChunk& normals(std::uint32_t chunk) const noexcept { return normals_[chunk]; }
+  /// Starts to load what an append to the surface at `head` touches.
+  [[gnu::always_inline]] void prefetch_chunk(std::uint32_t head) const noexcept {
+    __builtin_prefetch(&chunks_[head]);
+    __builtin_prefetch(&normals_[head]);
+    __builtin_prefetch(&moments_[head]);
+  }
   /// Points in all surfaces.
   std::size_t point_count() const noexcept { return point_count_; }
   bool chunks_exhausted() const noexcept { return chunk_ids_.exhausted(); }

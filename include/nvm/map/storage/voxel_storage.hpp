@@ -55,9 +55,40 @@ class VoxelStorage : public SurfaceStorage {
                                                  : bricks_[id].head[static_cast<std::size_t>(cell)];
   }
 
+  // Where find_voxel() and what follows it wait for memory, step by step; hints that change
+  // nothing. Each step reads what the one before has loaded, so that a caller who takes each step
+  // for many voxels before the next waits once for all of them.
+
+  [[gnu::always_inline]] void prefetch_brick(const VoxelIndex& voxel) const noexcept {
+    table_.prefetch(index_key(brick_index(voxel)));
+  }
+  /// The brick of `voxel`, or kNone.
+  [[gnu::always_inline]] std::uint32_t prefetch_head(const VoxelIndex& voxel) const noexcept {
+    const std::uint32_t id = table_.find(index_key(brick_index(voxel)));
+    if (id != kNone) {
+      __builtin_prefetch(&bricks_[id].occupied);
+      __builtin_prefetch(&bricks_[id].head[static_cast<std::size_t>(cell_in_brick(voxel))]);
+    }
+    return id;
+  }
+  /// The head of `voxel`, or kNone.
+  [[gnu::always_inline]] std::uint32_t prefetch_surface(
+      std::uint32_t brick, const VoxelIndex& voxel) const noexcept {
+    const int cell = cell_in_brick(voxel);
+    if (brick == kNone || !bricks_[brick].has(cell)) {
+      return kNone;
+    }
+    const std::uint32_t head = bricks_[brick].head[static_cast<std::size_t>(cell)];
+    prefetch_chunk(head);
+    return head;
+  }
+
   VoxelIndex index_of(std::uint32_t voxel) const noexcept {
     return voxel_index(
         bricks_[places_[voxel] / kBrickCells].key, static_cast<int>(places_[voxel] % kBrickCells));
+  }
+  std::uint32_t brick_of(std::uint32_t voxel) const noexcept {
+    return places_[voxel] / kBrickCells;
   }
   std::uint32_t head_of(std::uint32_t voxel) const noexcept {
     return bricks_[places_[voxel] / kBrickCells].head[places_[voxel] % kBrickCells];
