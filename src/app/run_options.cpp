@@ -36,6 +36,11 @@ void bind_input(config::Schema& schema, RunOptions& options) {
        {"us", io::TimeUnit::kMicrosecond},
        {"ns", io::TimeUnit::kNanosecond}},
       "Of the points' time field");
+  schema.add(
+      "max_imu_gap",
+      input.max_imu_gap,
+      {0.001, 1e9},
+      "A longer silence of the IMU is an error [s]");
   schema.add("scan_rate", input.scan_rate, {0.01, 1000.0}, "Of files without any time [Hz]");
   schema.add(
       "T_imu_lidar", options.T_imu_lidar, "x y z [m] qx qy qz qw; empty: as the sequence tells");

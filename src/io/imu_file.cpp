@@ -4,17 +4,23 @@
 
 #include <array>
 #include <limits>
+#include <stdexcept>
 
 namespace nvm::io {
 
-ImuFile::ImuFile(const std::string& path) : rows_(path, {"t", "gx", "gy", "gz", "ax", "ay", "az"}) {
+ImuFile::ImuFile(const std::string& path, double max_gap)
+    : rows_(path, {"t", "gx", "gy", "gz", "ax", "ay", "az"}), gaps_(max_gap) {
   advance();
 }
 
 std::vector<lio::ImuSample> ImuFile::until(double time) {
   std::vector<lio::ImuSample> samples;
   while (next_ && next_->time <= time) {
-    gaps_.add(next_->time);
+    try {
+      gaps_.add(next_->time);
+    } catch (const std::runtime_error& gap) {
+      rows_.line().fail(gap.what());
+    }
     samples.push_back(*next_);
     advance();
   }

@@ -13,11 +13,11 @@
 namespace nvm::io {
 
 /// The samples of an imu.csv (t,gx,gy,gz,ax,ay,az in s, rad/s, m/s^2) in order of time. Throws
-/// std::runtime_error, naming file and line, for numbers that are not finite and times that repeat
-/// or go back.
+/// std::runtime_error, naming file and line, for numbers that are not finite, times that repeat or
+/// go back, and gaps above `max_gap` [s].
 class ImuFile {
  public:
-  explicit ImuFile(const std::string& path);
+  ImuFile(const std::string& path, double max_gap);
 
   /// The samples not yet handed out with time <= `time`.
   std::vector<lio::ImuSample> until(double time);

@@ -112,7 +112,8 @@ void check_points(const ScanEntry& entry, const lio::Scan& scan) {
 
 class NvmSequence : public SequenceReader {
  public:
-  explicit NvmSequence(const std::string& folder) : scans_(read_scan_list(folder)) {
+  NvmSequence(const std::string& folder, const SequenceOptions& options)
+      : scans_(read_scan_list(folder)) {
     info_.format = "nvm sequence";
     info_.scan_count = scans_.size();
     info_.has_point_times = true;
@@ -120,7 +121,7 @@ class NvmSequence : public SequenceReader {
     apply(read_nvm_sequence_meta(meta), meta);
     info_.has_imu = fs::exists(folder + "/imu.csv");
     if (info_.has_imu) {
-      imu_.emplace(folder + "/imu.csv");
+      imu_.emplace(folder + "/imu.csv", options.max_imu_gap);
     } else {
       info_.notes.emplace_back("there is no imu.csv: the sequence is read without IMU");
     }
@@ -184,8 +185,9 @@ class NvmSequence : public SequenceReader {
 
 bool is_nvm_sequence(const std::string& folder) { return fs::exists(folder + "/scans.csv"); }
 
-std::unique_ptr<SequenceReader> open_nvm_sequence(const std::string& folder) {
-  return std::make_unique<NvmSequence>(folder);
+std::unique_ptr<SequenceReader> open_nvm_sequence(
+    const std::string& folder, const SequenceOptions& options) {
+  return std::make_unique<NvmSequence>(folder, options);
 }
 
 }  // namespace nvm::io

@@ -16,6 +16,7 @@ bool is_nvm_sequence(const std::string& folder);
 /// file and the line or point for a missing or truncated file, another layout, a time that repeats
 /// or goes back, points out of order, and numbers that are not finite. IMU gaps, a missing imu.csv
 /// and a missing T_imu_lidar become notes.
-std::unique_ptr<SequenceReader> open_nvm_sequence(const std::string& folder);
+std::unique_ptr<SequenceReader> open_nvm_sequence(
+    const std::string& folder, const SequenceOptions& options);
 
 }  // namespace nvm::io

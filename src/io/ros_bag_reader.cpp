@@ -81,7 +81,9 @@ double accel_scale(rosbag::View& view, AccelUnit unit) {
 class RosBag : public SequenceReader {
  public:
   RosBag(std::string path, const SequenceOptions& options)
-      : path_(std::move(path)), cloud_converter_(options.point_time_unit) {
+      : path_(std::move(path)),
+        cloud_converter_(options.point_time_unit),
+        gaps_(options.max_imu_gap) {
     check_ros_bag(path_);
     try {
       bag_.open(path_, rosbag::bagmode::Read);

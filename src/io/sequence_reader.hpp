@@ -27,7 +27,8 @@ struct SequenceOptions {
   std::string imu_topic;    ///< of a bag; empty: the first one with IMU messages
   AccelUnit accel_unit = AccelUnit::kAutomatic;  ///< of a bag
   TimeUnit point_time_unit = TimeUnit::kAutomatic;
-  double scan_rate = 10.0;  ///< [Hz], 0.01 to 1000; of scan files without any time
+  double max_imu_gap = 1.0;  ///< [s]; a longer one is an error, a shorter one a note
+  double scan_rate = 10.0;   ///< [Hz], 0.01 to 1000; of scan files without any time
 };
 
 /// What is known of a sequence before its first scan is read.
@@ -52,6 +53,7 @@ class SequenceReader {
   virtual std::optional<lio::Scan> next_scan() = 0;
 
   /// The IMU samples not yet handed out with time <= `time` [s], ascending; none without an IMU.
+  /// Throws std::runtime_error, naming the file, when they are malformed or lack too long.
   virtual std::vector<lio::ImuSample> imu_until(double time) = 0;
 };
 

@@ -211,7 +211,7 @@ TEST_F(NvmSequence, BadScanTimesAreNamed) {
   EXPECT_THAT(error(), HasSubstr("scans.csv: is empty"));
 }
 
-TEST_F(NvmSequence, BadImuTimesAreErrorsAndGapsAreNotes) {
+TEST_F(NvmSequence, BadImuTimesAreErrorsAndShortGapsAreNotes) {
   edit("imu.csv", "10.005000000", "10.000000000");
   EXPECT_THAT(error(), HasSubstr("imu.csv:3: the time is not above that of the sample before"));
   edit("imu.csv", "\n10.000000000,0.100000000", "\n9.999000000,inf");
@@ -228,6 +228,11 @@ TEST_F(NvmSequence, BadImuTimesAreErrorsAndGapsAreNotes) {
       read(),
       ElementsAre(
           "the IMU has 2 gaps of more than 0.020 s, the longest of 0.205 s at t = 10.095 s"));
+  SequenceOptions options;
+  options.max_imu_gap = 0.2;
+  EXPECT_THAT(
+      runtime_error_of([&] { open_sequence(path("s"), options)->imu_until(1e9); }),
+      HasSubstr("imu.csv:22: the IMU is silent for 0.205 s after t = 10.095 s"));
   std::filesystem::remove(path("s/imu.csv"));
   EXPECT_THAT(read(), ElementsAre(HasSubstr("there is no imu.csv")));
 }

@@ -133,7 +133,9 @@ TEST_F(RosBag, ImuThatEndsEarlyDoesNotPullAllScansIn) {
   }
   bag.add_imu(imu_at(1020.0));
   bag.commit();
-  const auto reader = open_sequence(path("a.bag"));
+  SequenceOptions options;
+  options.max_imu_gap = 100.0;
+  const auto reader = open_sequence(path("a.bag"), options);
   EXPECT_EQ(reader->imu_until(1010.0).size(), 1U);  // and gives up before the end of the bag
   std::size_t scans = 0;
   while (reader->next_scan()) {
@@ -151,12 +153,24 @@ TEST_F(RosBag, BadImuMessagesAreCountedAndGapsNoted) {
   }
   bag.add_imu(imu_at(1000.995));
   bag.add_imu(imu_at(1001.0, std::nan("")));
-  bag.add_imu(imu_at(1002.0));
+  bag.add_imu(imu_at(1001.9));
   bag.commit();
   const auto reader = open_sequence(path("a.bag"));
   EXPECT_EQ(reader->imu_until(1e9).size(), 201U);
   EXPECT_THAT(reader->info().notes, Contains(HasSubstr("2 IMU messages that repeat")));
   EXPECT_THAT(reader->info().notes, Contains(HasSubstr("the IMU has 1 gaps")));
+}
+
+TEST_F(RosBag, ALongSilenceOfTheImuIsAnError) {
+  RosBagWriter bag(path("a.bag"), CloudMessageType::kPointCloud2);
+  bag.add_scan(scan_at(1000.0));
+  bag.add_imu(imu_at(1000.0));
+  bag.add_imu(imu_at(1002.0));
+  bag.commit();
+  const auto reader = open_sequence(path("a.bag"));
+  EXPECT_THAT(
+      runtime_error_of([&] { reader->imu_until(1e9); }),
+      HasSubstr("a.bag: the IMU is silent for 2.000 s after t = 1000.000 s"));
 }
 
 TEST_F(RosBag, ScansThatGoBackAreAnError) {
