@@ -4,6 +4,6 @@
 set -euo pipefail
 source "$(dirname "$0")/environment.sh"
 preset=$1
-cmake --preset "$preset" -D NVM_BUILD_APPS=OFF -D NVM_BUILD_ADAPTERS=OFF -D NVM_BUILD_EXAMPLES=OFF
+cmake --preset "$preset" -D NVM_BUILD_APPS=OFF -D NVM_BUILD_ADAPTERS=OFF
 cmake --build --preset "$preset"
 ctest --preset "$preset"
