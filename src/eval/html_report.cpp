@@ -165,15 +165,25 @@ const StageTiming* find_stage(const RunEvaluation& run, const std::string& stage
   return found == run.timing.end() ? nullptr : &*found;
 }
 
+/// "map_update_ms" as "map update".
+std::string stage_label(std::string stage) {
+  const std::string unit = "_ms";
+  if (stage.size() > unit.size() && stage.rfind(unit) == stage.size() - unit.size()) {
+    stage.resize(stage.size() - unit.size());
+  }
+  std::replace(stage.begin(), stage.end(), '_', ' ');
+  return stage;
+}
+
 /// One row per stage that the first run timed.
 std::string timing_rows(const Evaluation& evaluation) {
   std::string rows;
   for (const StageTiming& first : evaluation.runs[0].timing) {
-    rows += run_row(
-        evaluation, "CPU per scan, mean (max): " + first.stage, [&](const RunEvaluation& run) {
-          const StageTiming* stage = find_stage(run, first.stage);
-          return stage ? fmt::format("{:.2f} ({:.2f})", stage->mean_ms, stage->max_ms) : "–";
-        });
+    const std::string label = "CPU per scan, mean (max) [ms]: " + stage_label(first.stage);
+    rows += run_row(evaluation, label, [&](const RunEvaluation& run) {
+      const StageTiming* stage = find_stage(run, first.stage);
+      return stage ? fmt::format("{:.2f} ({:.2f})", stage->mean_ms, stage->max_ms) : "–";
+    });
   }
   return rows;
 }
@@ -251,8 +261,11 @@ std::string html_report(const Evaluation& evaluation, const std::vector<WallPict
   }
   page += map_rows(evaluation) + timing_rows(evaluation) + "</table>\n";
   if (evaluation.truth) {
-    page += "<h2>Trajectories</h2>\n" + run_buttons(evaluation) + "<div class=\"row\">" +
-            trajectory_chart(evaluation) + error_chart(evaluation) + "</div>\n";
+    page +=
+        "<h2>Trajectories</h2>\n<p class=\"note\">The truth and the walls are black. A click "
+        "on a run hides it.</p>\n" +
+        run_buttons(evaluation) + "<div class=\"row\">" + trajectory_chart(evaluation) +
+        error_chart(evaluation) + "</div>\n";
   }
   page += wall_table(evaluation, "Walls", &MapEvaluation::walls);
   page += wall_table(evaluation, "Regions", &MapEvaluation::regions);
