@@ -15,13 +15,23 @@
 #include "app/simulate_command.hpp"
 #include "nvm/version.hpp"
 
+namespace {
+
+/// What is wrong with the arguments, in one line.
+std::string failure_message(const CLI::App*, const CLI::Error& error) {
+  return fmt::format("nvm: {} (see nvm --help)\n", error.what());
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   CLI::App app("Two-sided, normal-aware mapping and odometry with LiDAR");
   app.name("nvm");
   app.set_version_flag(
       "--version",
       fmt::format("nvm {}.{}.{}", NVM_VERSION_MAJOR, NVM_VERSION_MINOR, NVM_VERSION_PATCH));
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);
+  app.failure_message(failure_message);
   nvm::app::add_run_command(app);
   nvm::app::add_map_command(app);
   nvm::app::add_info_command(app);
@@ -30,6 +40,9 @@ int main(int argc, char** argv) {
   nvm::app::add_evaluate_command(app);
   try {
     app.parse(argc, argv);
+    if (app.get_subcommands().empty()) {
+      throw CLI::RequiredError("a command");
+    }
   } catch (const CLI::ParseError& error) {
     return app.exit(error);
   } catch (const std::exception& error) {

@@ -102,7 +102,7 @@ void add_map_command(CLI::App& app) {
       return;
     }
     if (arguments->input.empty() || arguments->poses.empty() || arguments->folder.empty()) {
-      throw CLI::RequiredError("SCANS, --poses and --out");
+      throw CLI::RequiredError("each of SCANS, --poses and --out");
     }
     build_map(*arguments, *options);
   });

@@ -75,7 +75,7 @@ void run(const RunArguments& arguments) {
     return;
   }
   if (arguments.input.empty() || arguments.folder.empty()) {
-    throw CLI::RequiredError("INPUT and --out");
+    throw CLI::RequiredError("each of INPUT and --out");
   }
   const auto reader = io::open_sequence(arguments.input, options->input);
   const auto pipeline = make_pipeline(*options, reader->info());

@@ -45,7 +45,7 @@ void list_sensors() {
 
 void simulate(const SimulateArguments& arguments, const sim::SimulationOptions& options) {
   if (arguments.scene.empty() || arguments.folder.empty()) {
-    throw CLI::RequiredError("SCENE and --out");
+    throw CLI::RequiredError("each of SCENE and --out");
   }
   const auto summary = sim::simulate(sim::load_scene(arguments.scene), options, arguments.folder);
   fmt::print(
@@ -93,7 +93,7 @@ void add_simulate_command(CLI::App& app) {
   command->add_option("--seed", arguments->seed, "Of all noise and of the walk's details")
       ->capture_default_str();
   command->add_option("--duration", arguments->duration, "[s]; 0: to the end of the route")
-      ->check(CLI::NonNegativeNumber)
+      ->check(CLI::Range(0.0, 1e6))
       ->capture_default_str();
   command->add_option("--config", arguments->options_file, "YAML file of options")
       ->check(CLI::ExistingFile);

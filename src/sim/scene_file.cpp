@@ -6,11 +6,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <optional>
-#include <sstream>
 #include <stdexcept>
 
+#include "io/file.hpp"
 #include "sim/scene_reader.hpp"
 #include "sim/shipped_files.hpp"
 
@@ -29,20 +28,10 @@ struct SceneText {
   std::string source;
 };
 
-std::string read_file(const fs::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (!stream || !text) {
-    throw std::runtime_error(path.string() + ": cannot be read");
-  }
-  return text.str();
-}
-
 /// The file at `path`, or else the shipped file called `name`.
 std::optional<SceneText> find_file(const fs::path& path, const std::string& name) {
   if (fs::is_regular_file(path)) {
-    return SceneText{read_file(path), path.string()};
+    return SceneText{io::read_file(path.string()), path.string()};
   }
   for (const ShippedFile& file : shipped_files()) {
     if (file.name == name) {
