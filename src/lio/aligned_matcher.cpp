@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The nvm authors
 #include "lio/aligned_matcher.hpp"
 
+#include <cmath>
+
 #include "nvm/core/require.hpp"
 
 namespace nvm::lio {
@@ -19,12 +21,16 @@ MatchResult AlignedMatcher::match(const LioMap& map, PreparedScan& scan, ErrorSt
     points_.push_back(scan.scan.points[index]);
     normals_.push_back(scan.normals[index]);
   }
-  const NavState predicted = filter.state();
-  const AlignResult aligned =
-      aligner_.align(map, points_, normals_, predicted.T_world_lidar(), executor_);
   MatchResult result;
-  result.accepted = aligned.status != AlignStatus::kTooFewResiduals;
-  result.iterations = aligned.iterations;
+  AlignResult aligned;
+  aligned.T_map_scan = filter.state().T_world_lidar();
+  const int rounds = rounds_for(pose_doubt(filter));
+  for (int round = 0; round < rounds && aligned.status != AlignStatus::kConverged; ++round) {
+    aligned = aligner_.align(map, points_, normals_, aligned.T_map_scan, executor_);
+    result.iterations += aligned.iterations;
+  }
+  result.accepted = aligned.status == AlignStatus::kConverged ||
+                    (aligned.status == AlignStatus::kMaxIterations && rounds == 1);
   result.residuals = aligned.counts.valid;
   result.inlier_share = aligned.inlier_share();
   result.residual_rms = aligned.rms_distance;
@@ -44,6 +50,22 @@ void observe_lidar_pose(
   covariance.diagonal().head<3>().setConstant(translation * translation);
   covariance.diagonal().tail<3>().setConstant(rotation * rotation);
   filter.observe_pose(T_world_lidar * filter.state().T_body_lidar.inverse(), covariance);
+}
+
+PoseObservation pose_doubt(const ErrorStateFilter& filter) {
+  const auto variances = filter.covariance().diagonal();
+  return {
+      std::sqrt(variances.segment<3>(kPosition).maxCoeff()),
+      std::sqrt(variances.segment<3>(kRotation).maxCoeff())};
+}
+
+int rounds_for(const PoseObservation& doubt) {
+  constexpr PoseObservation kSure{0.05, 0.05};
+  constexpr int kDoubtfulRounds = 5;
+  return doubt.translation_deviation < kSure.translation_deviation &&
+                 doubt.rotation_deviation < kSure.rotation_deviation
+             ? 1
+             : kDoubtfulRounds;
 }
 
 void PoseObservation::validate() const {

@@ -29,4 +29,11 @@ class AlignedMatcher final : public ScanMatcher {
 void observe_lidar_pose(
     const Pose& T_world_lidar, const PoseObservation& observation, ErrorStateFilter& filter);
 
+/// How unsure `filter` is of the body's pose: one standard deviation.
+PoseObservation pose_doubt(const ErrorStateFilter& filter);
+
+/// How many times the usual number of iterations an optimisation may take from a prediction as
+/// unsure as this: after a gap the way is long, and what has not converged then is not believed.
+int rounds_for(const PoseObservation& doubt);
+
 }  // namespace nvm::lio

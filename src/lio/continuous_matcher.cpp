@@ -4,6 +4,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
 
 namespace nvm::lio {
 
@@ -13,9 +14,16 @@ constexpr std::size_t kBlock = 128;
 
 // A residual errs by about this [m]; the ties are weighed against it.
 constexpr double kResidualDeviation = 0.01;
-// How far the begin may leave the last scan's end, and the end the prediction.
+// How far the begin may leave the last scan's end, and the end the prediction, where the filter is
+// sure of it.
 constexpr PoseObservation kBeginTie{0.001, 0.0003};
 constexpr PoseObservation kEndTie{0.05, 0.02};
+
+PoseObservation loosened(const PoseObservation& tie, const PoseObservation& doubt) {
+  return {
+      std::hypot(tie.translation_deviation, doubt.translation_deviation),
+      std::hypot(tie.rotation_deviation, doubt.rotation_deviation)};
+}
 
 }  // namespace
 
@@ -29,12 +37,14 @@ ContinuousMatcher::ContinuousMatcher(
 MatchResult ContinuousMatcher::match(
     const LioMap& map, PreparedScan& scan, ErrorStateFilter& filter) {
   const Pose predicted = filter.state().T_world_lidar();
+  doubt_ = pose_doubt(filter);
   const auto& ages = scan.scan.ages;
   duration_ = ages.empty() ? 0.0F : *std::max_element(ages.begin(), ages.end());
   correction_.setZero();
   MatchResult result;
   bool converged = false;
-  while (result.iterations < options_.max_iterations && !converged) {
+  const int rounds = rounds_for(doubt_);
+  while (result.iterations < rounds * options_.max_iterations && !converged) {
     Sums sums = linearize(map, scan, predicted);
     result.residuals = sums.end.counts.valid;
     result.inlier_share = static_cast<double>(sums.end.counts.valid) /
@@ -52,7 +62,10 @@ MatchResult ContinuousMatcher::match(
     converged = step.segment<3>(6).norm() < options_.converged_rotation &&
                 step.segment<3>(9).norm() < options_.converged_translation;
   }
-  result.accepted = true;
+  result.accepted = converged || rounds == 1;
+  if (!result.accepted) {
+    return result;
+  }
   observe_lidar_pose(retract(predicted, correction_.tail<6>()), observation_, filter);
   correct_points(predicted, scan.scan);
   return result;
@@ -119,8 +132,8 @@ void ContinuousMatcher::add_ties(Sums& sums) const {
     sums.information.diagonal().segment<6>(begin) += weight;
     sums.gradient.segment<6>(begin) += weight.cwiseProduct(correction_.segment<6>(begin));
   };
-  tie(0, kBeginTie);
-  tie(6, kEndTie);
+  tie(0, loosened(kBeginTie, doubt_));
+  tie(6, loosened(kEndTie, doubt_));
 }
 
 void ContinuousMatcher::correct_points(const Pose& T_world_lidar, DeskewedScan& scan) const {

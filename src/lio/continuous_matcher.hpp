@@ -16,7 +16,8 @@ namespace nvm::lio {
 /// one at its end, each point at its own time in between.
 ///
 /// Both poses are corrections of the IMU's motion, interpolated linearly in time, so that the fine
-/// motion between them stays the IMU's. The begin is tied to where the last scan ended.
+/// motion between them stays the IMU's. The begin is tied to where the last scan ended, as firmly
+/// as the filter is sure of it.
 class ContinuousMatcher final : public ScanMatcher {
  public:
   ContinuousMatcher(
@@ -50,6 +51,7 @@ class ContinuousMatcher final : public ScanMatcher {
   AlignOptions options_;
   PoseObservation observation_;
   Executor executor_;
+  PoseObservation doubt_;                   ///< how unsure the prediction of the scan in work is
   float duration_ = 0.0F;                   ///< of the scan in work [s]
   Vector12 correction_ = Vector12::Zero();  ///< begin, then end: rotation (scan frame), translation
   std::vector<Sums> block_sums_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lio/plane_projection.hpp"
 #include "lio/stage_timer.hpp"
 #include "nvm/core/require.hpp"
 
@@ -68,10 +69,7 @@ bool InertialPipeline::initialize(double until, FrameResult& result) {
     initializer_.add(sample);
     initialized_until_ = sample.time;
     if (std::optional<InitialState> initial = initializer_.state()) {
-      NavVector extrinsic = NavVector::Zero();
-      extrinsic.segment<3>(kLidarPosition).setConstant(options_.extrinsic_translation_deviation);
-      extrinsic.segment<3>(kLidarRotation).setConstant(options_.extrinsic_rotation_deviation);
-      initial->covariance.diagonal() += extrinsic.cwiseAbs2();
+      initial->covariance.diagonal() += extrinsic_deviations().cwiseAbs2();
       initial->state.T_body_lidar = options_.T_imu_lidar;
       filter_.emplace(initial->state, initial->covariance, options_.imu_noise);
       last_believed_ = {sample.time, initial->state.T_world_body};
@@ -81,6 +79,19 @@ bool InertialPipeline::initialize(double until, FrameResult& result) {
   }
   result.message = initializer_.why_not();
   return false;
+}
+
+// The first scan makes the map where the assumed extrinsic puts it, so that in this map the body's
+// pose is as unsure as the extrinsic.
+NavVector InertialPipeline::extrinsic_deviations() const {
+  NavVector deviations = NavVector::Zero();
+  for (const NavIndex part : {kPosition, kLidarPosition}) {
+    deviations.segment<3>(part).setConstant(options_.extrinsic_translation_deviation);
+  }
+  for (const NavIndex part : {kRotation, kLidarRotation}) {
+    deviations.segment<3>(part).setConstant(options_.extrinsic_rotation_deviation);
+  }
+  return deviations;
 }
 
 void InertialPipeline::predict(double until) {
@@ -142,9 +153,11 @@ void InertialPipeline::prepare(const Scan& scan, FrameResult& result) {
     deskew(scan, segments_, filter_->state(), options_.range, prepared_.scan);
   }
   const StageTimer timer(result.times.normals);
-  prepared_.normals =
-      normal_estimator_.estimate(prepared_.scan.points, prepared_.scan.viewpoints, executor_)
-          .normals;
+  DeskewedScan& prepared = prepared_.scan;
+  prepared_.normals = project_to_planes(
+      normal_estimator_.estimate(prepared.points, prepared.viewpoints, executor_),
+      options_.max_plane_offset,
+      prepared);
 }
 
 void InertialPipeline::match(FrameResult& result) {
@@ -197,6 +210,7 @@ void InertialOptions::validate() const {
       "min_inlier_share",
       min_inlier_share,
       "0 to 1");
+  not_negative(max_plane_offset, "max_plane_offset");
   not_negative(max_weak_duration, "max_weak_duration");
   not_negative(extrinsic_translation_deviation, "extrinsic_translation_deviation");
   not_negative(extrinsic_rotation_deviation, "extrinsic_rotation_deviation");

@@ -27,6 +27,9 @@ struct InertialOptions {
   double max_imu_gap = 0.05;
   RangeLimits range;
   NormalOptions normals;
+  /// Points are moved onto the plane of their neighbourhood by at most this [m], 0 or more; with 0
+  /// they stay (see project_to_planes).
+  double max_plane_offset = 0.05;
   KeypointOptions keypoints;
   /// A frame is believed when at least this share of its residuals fits, 0 to 1.
   double min_inlier_share = 0.5;
@@ -61,6 +64,7 @@ class InertialPipeline final : public Pipeline {
 
  private:
   bool initialize(double until, FrameResult& result);
+  NavVector extrinsic_deviations() const;
   void predict(double until);
   void coast(double until);
   void use_rest();

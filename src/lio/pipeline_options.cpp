@@ -21,7 +21,8 @@ std::unique_ptr<ScanMatcher> make_matcher(
     case PipelineType::kCtLioContinuous:
       return std::make_unique<ContinuousMatcher>(options.align, options.observation, executor);
     default:
-      return std::make_unique<FilterMatcher>(options.measurement, options.iteration, executor);
+      return std::make_unique<FilterMatcher>(
+          options.measurement, options.iteration, options.align, executor);
   }
 }
 
@@ -30,6 +31,7 @@ LidarOdometryOptions lidar_only_options(const PipelineOptions& options) {
   const InertialOptions& shared = options.inertial;
   lidar_only.range = shared.range;
   lidar_only.normals = shared.normals;
+  lidar_only.max_plane_offset = shared.max_plane_offset;
   lidar_only.keypoints = shared.keypoints;
   lidar_only.min_inlier_share = shared.min_inlier_share;
   lidar_only.T_body_lidar = shared.T_imu_lidar;
@@ -40,10 +42,12 @@ LidarOdometryOptions lidar_only_options(const PipelineOptions& options) {
 }  // namespace
 
 PipelineOptions::PipelineOptions() {
-  map.min_point_distance = 0.05;
-  map.points_per_surface = 40;
+  map.min_point_distance = 0.07;
+  map.points_per_surface = 30;
   inertial.normals.min_range = inertial.range.min_range;
   inertial.normals.max_range = inertial.range.max_range;
+  inertial.normals.max_linearity = 0.95;
+  inertial.normals.max_plane_deviation = 0.015;
   align.max_iterations = 10;
   align.converged_translation = 2e-4;
   align.converged_rotation = 5e-5;

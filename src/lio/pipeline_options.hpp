@@ -34,7 +34,7 @@ struct PipelineOptions {
   InertialOptions inertial;
   MeasurementOptions measurement;  ///< fast_lio
   IterationOptions iteration;      ///< fast_lio
-  AlignOptions align;              ///< ct_lio
+  AlignOptions align;              ///< ct_lio, and fast_lio after a gap
   PoseObservation observation;     ///< ct_lio
   /// Its own part only: what it shares with the inertial pipelines comes from `inertial` and
   /// `align`.

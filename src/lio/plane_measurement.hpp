@@ -18,8 +18,8 @@ namespace nvm::lio {
 /// the map, and how much that distance errs.
 struct MeasurementOptions {
   /// Neighbours that a plane is fitted to at most, and at least: 3 to kMaxNeighbors.
-  std::size_t neighbors = 10;
-  std::size_t min_neighbors = 6;
+  std::size_t neighbors = 8;
+  std::size_t min_neighbors = 5;
   /// Neighbours lie at most this far from the point [m], positive.
   double max_neighbor_distance = 0.6;
   /// A point farther from its plane belongs to something else [m], positive.
@@ -31,8 +31,9 @@ struct MeasurementOptions {
   double max_normal_angle = 0.5;
   /// Planes less planar than this (a2D of spec §4) are lines, 0 to 1.
   double min_planarity = 0.2;
-  /// Standard deviations of a return: along the beam [m], and across it as an angle [rad].
-  double range_deviation = 0.01;
+  /// Standard deviations of a point: along the beam [m], after it has been moved onto the plane of
+  /// its neighbourhood, and across it as an angle [rad].
+  double range_deviation = 0.005;
   double beam_deviation = 5e-4;
   /// Normalised residuals beyond this pull less than their square (Huber), positive.
   double huber = 2.0;
@@ -42,7 +43,7 @@ struct MeasurementOptions {
   std::size_t min_residuals = 50;
   /// Directions of the pose with a smaller share of the information are left to the IMU, 0 to 1
   /// (see remove_unobserved).
-  double min_observability = 1e-4;
+  double min_observability = 3e-3;
 
   void validate() const;
 };

@@ -47,6 +47,7 @@ class NormalEstimator {
     prepare_cloud(points, viewpoints, executor);
     result_.status = cloud_status_;
     result_.normals.assign(points.size(), Eigen::Vector3f::Zero());
+    result_.plane_offsets.assign(points.size(), 0.0F);
     if (options_.method == NormalMethod::kPerCell) {
       solve_cells(executor);
     } else {
@@ -72,6 +73,7 @@ class NormalEstimator {
     localize(queries, viewpoint, position(viewpoint), result_.status, executor);
     sorter_.sort(local_, result_.status, sort_edge(), queries_);
     result_.normals.assign(queries.size(), Eigen::Vector3f::Zero());
+    result_.plane_offsets.assign(queries.size(), 0.0F);
     solve(queries_, result_, executor);
     finish(queries, viewpoint, executor);
     return result_;
@@ -164,10 +166,18 @@ class NormalEstimator {
   void solve_cells(const Executor& executor) {
     cell_result_.status.resize(grid_.size());
     cell_result_.normals.resize(grid_.size());
+    cell_result_.plane_offsets.resize(grid_.size());
     solve(grid_.means(), cell_result_, executor);
     grid_.for_each_point(cloud_, [this](std::size_t cell, std::size_t point) {
       result_.status[point] = cell_result_.status[cell];
-      result_.normals[point] = cell_result_.normals[cell];
+      const Eigen::Vector3f& normal = cell_result_.normals[cell];
+      const detail::SortedPoints& mean = grid_.means();
+      const Eigen::Vector3f to_mean(
+          mean.x[cell] - local_.x[point],
+          mean.y[cell] - local_.y[point],
+          mean.z[cell] - local_.z[point]);
+      result_.normals[point] = normal;
+      result_.plane_offsets[point] = cell_result_.plane_offsets[cell] + normal.dot(to_mean);
     });
   }
 
@@ -198,6 +208,7 @@ class NormalEstimator {
         if (result_.status[i] == NormalStatus::kValid &&
             ray.dot(result_.normals[i].template cast<double>()) > 0.0) {
           result_.normals[i] = -result_.normals[i];
+          result_.plane_offsets[i] = -result_.plane_offsets[i];
         }
       }
     });

@@ -38,6 +38,9 @@ struct NormalResult {
   /// Unit normals in the frame of the points that look back at the viewpoint:
   /// n . (viewpoint - p) >= 0. Zero where the status is not kValid.
   std::vector<Eigen::Vector3f> normals;
+  /// Signed distance [m] along the normal from each point to the least-squares plane of its
+  /// neighbourhood: points[i] + plane_offsets[i] * normals[i] lies on it. Zero as the normals are.
+  std::vector<float> plane_offsets;
   std::vector<NormalStatus> status;
   NormalStats stats;
 };
