@@ -50,7 +50,7 @@ class Chart {
   void add_line(const std::vector<ChartPoint>& points, const SeriesStyle& style);
   void add_dots(const std::vector<ChartPoint>& points, const SeriesStyle& style);
 
-  /// The <svg> element.
+  /// The `<svg>` element.
   std::string svg() const;
 
   double width() const { return layout_.width; }
@@ -68,7 +68,7 @@ class Chart {
   std::string series_;
 };
 
-/// The charts one beside the other, as one <svg> element.
+/// The charts one beside the other, as one `<svg>` element.
 std::string side_by_side(const std::vector<Chart>& charts);
 
 /// `text` with the characters that XML and HTML keep for themselves escaped.
