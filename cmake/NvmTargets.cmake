@@ -1,7 +1,8 @@
 # Helpers for nvm's own targets; nothing here reaches a user's targets.
 
-# gcc's -Wconversion leaves changes of sign out, and GoogleTest's macros take no arguments.
-set(nvm_clang_silences -Wno-sign-conversion -Wno-gnu-zero-variadic-macro-arguments)
+# gcc's -Wconversion leaves changes of sign out, GoogleTest's macros take no arguments, and points like PCL's are unions with
+# structs that have no name.
+set(nvm_clang_silences -Wno-sign-conversion -Wno-gnu-zero-variadic-macro-arguments -Wno-nested-anon-types)
 add_library(nvm_warnings INTERFACE)
 target_compile_options(
   nvm_warnings INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wshadow

@@ -89,7 +89,9 @@ class Insertion {
       if (places[i] != kNone) {
         const PointChunk& head = storage_.chunk(places[i]);
         storage_.recency().prefetch(head.voxel);
-        if (head.next != kNone) storage_.prefetch_chunk(head.next);
+        if (head.next != kNone) {
+          storage_.prefetch_chunk(head.next);
+        }
       }
     }
   }
