@@ -171,6 +171,36 @@ TEST(Insertion, KeepsCapacityAndDistancePerSide) {
   }
 }
 
+TEST(Insertion, SpacingReachesOverVoxelBordersButNotThroughTheWall) {
+  std::mt19937_64 rng = test::rng();
+  MapOptions options;
+  options.points_per_surface = 120;
+  options.space_across_voxels = true;
+  VoxelMap map(options);
+  const test::Cloud wall = test::thin_wall(30000, 0.03, rng);
+  const InsertStats stats = map.insert(wall.points, wall.normals);
+  EXPECT_EQ(stats.stored + stats.too_close, wall.points.size());
+  const std::vector<MapPoint> points = map.points();
+  std::size_t close_through_the_wall = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const double distance = (points[i].position - points[j].position).norm();
+      const bool is_same_face = points[i].normal.dot(points[j].normal) > 0.0F;
+      ASSERT_TRUE(!is_same_face || distance >= 0.1 - 1e-4) << distance;
+      close_through_the_wall += !is_same_face && distance < 0.1 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(close_through_the_wall, points.size() / 4);
+  for (std::size_t i = 0; i < wall.points.size(); i += 100) {  // and what is missing was too close
+    bool is_covered = false;
+    for (const MapPoint& point : points) {
+      is_covered = is_covered || (point.normal.dot(wall.normals[i]) > 0.0F &&
+                                  (point.position - wall.points[i]).norm() < 0.1 + 1e-4);
+    }
+    ASSERT_TRUE(is_covered) << wall.points[i].transpose();
+  }
+}
+
 TEST(Insertion, CountsBadDataAndLosesNothingElse) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   constexpr float kNanF = std::numeric_limits<float>::quiet_NaN();

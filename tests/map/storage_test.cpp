@@ -52,7 +52,7 @@ TEST(Lattice, PositionsComeBackWithinHalfAStep) {
     std::uniform_real_distribution<double> u(-1e5, 1e5);
     for (int i = 0; i < 1000; ++i) {
       const Eigen::Vector3d position(u(rng), u(rng), u(rng));
-      LatticePoint point;
+      LatticePoint point{VoxelIndex::Zero(), Eigen::Vector3i::Zero()};
       ASSERT_EQ(lattice.locate(position, point), LatticeStatus::kInside);
       const Eigen::Vector3d error = lattice.position(point.voxel, point.step) - position;
       EXPECT_LT(error.cwiseAbs().maxCoeff(), 0.5001 * lattice.meters_per_step());
@@ -146,6 +146,7 @@ TEST(PrincipalDirection, IsTheDominantEigenvectorWithTheSignOfTheSum) {
     SurfaceMoments moments;
     Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    WideVector wide_sum{0, 0, 0};
     const std::size_t count = 1 + rng() % 120;
     for (std::size_t i = 0; i < count; ++i) {
       const StoredNormal normal =
@@ -154,6 +155,7 @@ TEST(PrincipalDirection, IsTheDominantEigenvectorWithTheSignOfTheSum) {
       const Eigen::Vector3d n(normal.x, normal.y, normal.z);
       matrix += n * n.transpose();
       sum += n;
+      wide_sum = {wide_sum.x + normal.x, wide_sum.y + normal.y, wide_sum.z + normal.z};
     }
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(matrix);
     Eigen::Vector3d expected = solver.eigenvectors().col(2);
@@ -164,13 +166,14 @@ TEST(PrincipalDirection, IsTheDominantEigenvectorWithTheSignOfTheSum) {
       continue;  // no distinct direction, or no sign
     }
     ++checked;
-    const Eigen::Vector3d direction = load_normal(principal_direction(moments)).cast<double>();
+    const Eigen::Vector3d direction =
+        load_normal(principal_direction(moments, wide_sum)).cast<double>();
     const double ratio = solver.eigenvalues()[1] / solver.eigenvalues()[2];
     const double bound = 0.008 + 0.02 / (1.0 - ratio);  // rounding, and what the matrix may turn it
     ASSERT_GT(direction.dot(expected), std::cos(bound)) << solver.eigenvalues().transpose();
   }
   EXPECT_GT(checked, 15000);
-  EXPECT_EQ(principal_direction(SurfaceMoments{}), StoredNormal{});
+  EXPECT_EQ(principal_direction(SurfaceMoments{}, WideVector{}), StoredNormal{});
 }
 
 TEST(StoredNormal, IsAccurateAndItsThresholdsAreCosines) {

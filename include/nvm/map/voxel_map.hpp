@@ -264,9 +264,10 @@ class VoxelMap {
     context.learn(wanted, count == wanted ? found.sq_distance(order[last]) : limit);
     const detail::WrappedPoint from = detail::wrap(point);
     const Eigen::Vector3d origin = detail::Lattice::steps(point);
+    const detail::PointChunk* chunks = storage_.chunks();
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
       const PointId id = found.id(order[i]);
-      const detail::PointChunk& chunk = storage_.chunk(id / detail::kLanes);
+      const detail::PointChunk& chunk = chunks[id / detail::kLanes];
       storage_.recency().use(chunk.voxel);
       const Eigen::Vector3i offset =
           detail::difference(chunk.wrapped(static_cast<int>(id % detail::kLanes)), from);

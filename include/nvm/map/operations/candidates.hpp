@@ -53,7 +53,7 @@ class Candidates {
   }
 
   /// Drops all but the wanted nearest, and returns the distance that a later candidate must beat.
-  std::int32_t keep_nearest() noexcept {
+  [[gnu::noinline, gnu::cold]] std::int32_t keep_nearest() noexcept {
     std::array<std::uint64_t, kRoom> keys;  // distance, then index
     for (int i = 0; i < count_; ++i) {
       keys[static_cast<std::size_t>(i)] =
@@ -79,37 +79,39 @@ class Candidates {
   /// branch that could be mispredicted, which beats a heap for the 8 to 64 candidates of a query.
   /// False when some are equally near: they would have the same rank.
   bool rank(int found, std::uint8_t* order) noexcept {
-    const int blocks = (count_ + kLanes - 1) / kLanes;
-    for (int i = count_; i < blocks * kLanes; ++i) {
-      sq_distances_[i] = std::numeric_limits<std::int32_t>::max();
-    }
-    constexpr std::uint8_t kNobody = 0xff;
-    std::array<std::uint8_t, kMaxRanked> by_rank;
-    by_rank.fill(kNobody);
-    for (int block = 0; block < blocks; block += 2) {
+    const IntLanes padding = IntLanes{} + std::numeric_limits<std::int32_t>::max();
+    std::memcpy(&sq_distances_[count_], &padding, sizeof(padding));
+    std::memcpy(&sq_distances_[count_ + kLanes], &padding, sizeof(padding));
+    std::uint64_t taken = 0;  // bit r: a candidate has rank r
+    for (int begin = 0; begin < count_; begin += 2 * kLanes) {
       alignas(32) std::array<std::int32_t, 2 * kLanes> ranks;
-      rank_two_blocks(block, ranks.data());
-      const int lanes = std::min(2 * kLanes, count_ - block * kLanes);
-      for (int lane = 0; lane < lanes; ++lane) {
-        const auto place = static_cast<std::size_t>(ranks[static_cast<std::size_t>(lane)]);
-        by_rank[place] = static_cast<std::uint8_t>(block * kLanes + lane);
+      rank_two_blocks(begin, ranks.data());
+      const int end = std::min(begin + 2 * kLanes, count_);
+      for (int i = begin; i < end; ++i) {
+        const std::int32_t rank = ranks[static_cast<std::size_t>(i - begin)];
+        order[rank] = static_cast<std::uint8_t>(i);
+        taken |= std::uint64_t{1} << rank;
       }
     }
-    std::copy_n(by_rank.begin(), found, order);
-    return std::find(order, order + found, kNobody) == order + found;
+    const std::uint64_t first_ranks =
+        found < 64 ? (std::uint64_t{1} << found) - 1 : ~std::uint64_t{0};
+    return (taken & first_ranks) == first_ranks;
   }
 
-  [[gnu::always_inline]] void rank_two_blocks(int block, std::int32_t* ranks) const noexcept {
+  [[gnu::always_inline]] void rank_two_blocks(int begin, std::int32_t* ranks) const noexcept {
     IntLanes low;
     IntLanes high;
-    std::memcpy(&low, &sq_distances_[block * kLanes], sizeof(low));
-    std::memcpy(&high, &sq_distances_[(block + 1) * kLanes], sizeof(high));
+    std::memcpy(&low, &sq_distances_[begin], sizeof(low));
+    std::memcpy(&high, &sq_distances_[begin + kLanes], sizeof(high));
     IntLanes low_ranks{};
     IntLanes high_ranks{};
-    for (int other = 0; other < count_; ++other) {
-      const IntLanes distance = IntLanes{} + sq_distances_[other];
-      low_ranks -= low > distance;
-      high_ranks -= high > distance;
+    // Four at a time, which may count some padding: it is nearer than nothing.
+    for (int first = 0; first < count_; first += 4) {
+      for (int other = first; other < first + 4; ++other) {
+        const IntLanes distance = IntLanes{} + sq_distances_[other];
+        low_ranks -= low > distance;
+        high_ranks -= high > distance;
+      }
     }
     std::memcpy(ranks, &low_ranks, sizeof(low_ranks));
     std::memcpy(ranks + kLanes, &high_ranks, sizeof(high_ranks));

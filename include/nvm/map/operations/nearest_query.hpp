@@ -46,29 +46,29 @@ struct PointGate : NormalGate {
   bool reads_surface(const PointChunk&) const { return true; }
 };
 
-/// The cells of one axis of a brick that lie next to a voxel, and those in the brick beside it.
+/// What lies next to a voxel along one axis, in its own brick (0) and in the one beside it (1).
 struct AxisWindow {
-  int bricks = 0;                     // 1 or 2
-  std::array<int, 2> brick_offset{};  // -1, 0 or 1
-  std::array<std::array<std::uint64_t, 2>, 3>
-      cells{};  // per axis and brick: mask of cells inside the window
+  bool is_wide = false;  // reaches into the brick beside
+  // Per axis that it may be used for, and brick: the cells in the window, and the way to the brick
+  // in Brick::around.
+  std::array<std::array<std::uint64_t, 2>, 3> cells{};
+  std::array<std::array<int, 2>, 3> around_step{};
 };
 
 /// The window from place `first` to `last` of the brick that holds the voxel: -1 and 4 lie in the
 /// brick beside it.
 constexpr AxisWindow axis_window(int first, int last) {
+  constexpr std::array<int, 3> kStride{1, kBrickEdge, kBrickEdge * kBrickEdge};
+  constexpr std::array<int, 3> kAroundStride{1, 3, 9};
   AxisWindow window;
-  window.bricks = 1;
-  if (first < 0 || last >= kBrickEdge) {
-    window.bricks = 2;
-    window.brick_offset[1] = first < 0 ? -1 : 1;
-  }
-  for (int cell = 0; cell < kBrickCells; ++cell) {
-    const std::array<int, 3> coordinate{cell % 4, cell / 4 % 4, cell / 16};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      for (std::size_t brick = 0; brick < static_cast<std::size_t>(window.bricks); ++brick) {
-        const int place_seen = coordinate[axis] + kBrickEdge * window.brick_offset[brick];
-        if (first <= place_seen && place_seen <= last) {
+  window.is_wide = first < 0 || last >= kBrickEdge;
+  const std::array<int, 2> offset{0, first < 0 ? -1 : 1};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t brick = 0; brick < 2; ++brick) {
+      window.around_step[axis][brick] = offset[brick] * kAroundStride[axis];
+      for (int cell = 0; cell < kBrickCells; ++cell) {
+        const int place = cell / kStride[axis] % kBrickEdge + kBrickEdge * offset[brick];
+        if (first <= place && place <= last) {
           window.cells[axis][brick] |= std::uint64_t{1} << cell;
         }
       }
@@ -90,16 +90,27 @@ inline constexpr auto kAxisWindows = [] {
   return windows;
 }();
 
+/// The bricks that windows reach into, by which of them are wide (bit 0: x, 1: y, 2: z): bit b is
+/// set for brick b, whose own bits say along which axes it lies beside.
+inline constexpr std::array<std::uint8_t, 8> kWindowBricks{
+    0x01, 0x03, 0x05, 0x0f, 0x11, 0x33, 0x55, 0xff};
+
 /// Collects the points near a query from the up to 27 voxels around it.
 template <class Gate>
 class NearestQuery {
  public:
   NearestQuery(const VoxelStorage& storage, const LatticePoint& point, const Gate& gate)
-      : storage_(storage), gate_(gate), voxel_(point.voxel), lanes_(wrap(point)) {
+      : storage_(storage),
+        bricks_(storage.bricks()),
+        chunks_(storage.chunks()),
+        normals_(storage.normals()),
+        gate_(gate),
+        voxel_(point.voxel),
+        lanes_(wrap(point)) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::int32_t below = point.step[static_cast<int>(axis)] + 1;
       const std::int32_t above = kStepsPerVoxel - point.step[static_cast<int>(axis)];
-      sq_gap_[axis] = {below * below, 0, above * above};
+      sq_gap_[axis] = {below * below, above * above};
     }
   }
 
@@ -111,16 +122,20 @@ class NearestQuery {
     const AxisWindow& x = window(0, limit);
     const AxisWindow& y = window(1, limit);
     const AxisWindow& z = window(2, limit);
-    for (std::size_t k = 0; k < static_cast<std::size_t>(z.bricks); ++k) {
-      for (std::size_t j = 0; j < static_cast<std::size_t>(y.bricks); ++j) {
-        for (std::size_t i = 0; i < static_cast<std::size_t>(x.bricks); ++i) {
-          const VoxelIndex offset(x.brick_offset[i], y.brick_offset[j], z.brick_offset[k]);
-          const std::uint32_t id = brick_at(brick, offset);
-          if (id != kNone) {
-            const std::uint64_t cells = x.cells[0][i] & y.cells[1][j] & z.cells[2][k];
-            collect_brick(storage_.brick(id), offset, cells, limit, found);
-          }
-        }
+    const std::size_t wide = static_cast<std::size_t>(x.is_wide) |
+                             static_cast<std::size_t>(y.is_wide) << 1 |
+                             static_cast<std::size_t>(z.is_wide) << 2;
+    for (std::uint32_t bricks = kWindowBricks[wide]; bricks != 0; bricks &= bricks - 1) {
+      const auto beside = static_cast<std::uint32_t>(__builtin_ctz(bricks));
+      const std::size_t i = beside & 1U;
+      const std::size_t j = beside >> 1 & 1U;
+      const std::size_t k = beside >> 2;
+      const int slot =
+          kBricksAround / 2 + x.around_step[0][i] + y.around_step[1][j] + z.around_step[2][k];
+      const std::uint32_t id = brick_at(brick, slot);
+      if (id != kNone) {
+        const std::uint64_t cells = x.cells[0][i] & y.cells[1][j] & z.cells[2][k];
+        collect_brick(bricks_[id], cells, limit, found);
       }
     }
   }
@@ -129,45 +144,32 @@ class NearestQuery {
   const AxisWindow& window(std::size_t axis, std::int32_t limit) const noexcept {
     const auto place = static_cast<std::size_t>(voxel_[static_cast<int>(axis)] & (kBrickEdge - 1));
     const std::size_t wanted = static_cast<std::size_t>(sq_gap_[axis][0] < limit) |
-                               static_cast<std::size_t>(sq_gap_[axis][2] < limit) << 1;
+                               static_cast<std::size_t>(sq_gap_[axis][1] < limit) << 1;
     return kAxisWindows[place][wanted];
   }
 
-  std::uint32_t brick_at(std::uint32_t center, const VoxelIndex& offset) const noexcept {
+  /// The brick in `slot` around the one of the query's voxel, `center`.
+  std::uint32_t brick_at(std::uint32_t center, int slot) const noexcept {
     if (center != kNone) {
-      return storage_.brick(center)
-          .around[static_cast<std::size_t>(around_slot(offset.x(), offset.y(), offset.z()))];
+      return bricks_[center].around[static_cast<std::size_t>(slot)];
     }
-    return offset.isZero() ? kNone : storage_.find_brick(index_key(brick_index(voxel_) + offset));
+    return storage_.find_brick(index_key(brick_index(voxel_) + around_offset(slot)));
   }
 
   [[gnu::always_inline]] void collect_brick(
       const Brick& brick,
-      const VoxelIndex& offset,
       std::uint64_t cells,
       std::int32_t& limit,
       Candidates& found) const noexcept {
-    constexpr int kMask = kBrickEdge - 1;
-    // Of a cell's coordinate in this brick to the index of its gap: 0, 1, 2 for the voxel below,
-    // at, above the query's.
-    const int x0 = offset.x() * kBrickEdge - (voxel_.x() & kMask) + 1;
-    const int y0 = offset.y() * kBrickEdge - (voxel_.y() & kMask) + 1;
-    const int z0 = offset.z() * kBrickEdge - (voxel_.z() & kMask) + 1;
     for (cells &= brick.occupied; cells != 0; cells &= cells - 1) {
-      const int cell = __builtin_ctzll(cells);
-      const std::int32_t sq_gap = sq_gap_[0][static_cast<std::size_t>(x0 + (cell & kMask))] +
-                                  sq_gap_[1][static_cast<std::size_t>(y0 + (cell >> 2 & kMask))] +
-                                  sq_gap_[2][static_cast<std::size_t>(z0 + (cell >> 4))];
-      if (sq_gap < limit) {
-        collect_voxel(brick.head[static_cast<std::size_t>(cell)], limit, found);
-      }
+      collect_voxel(brick.head[static_cast<std::size_t>(__builtin_ctzll(cells))], limit, found);
     }
   }
 
   [[gnu::always_inline]] void collect_voxel(
       std::uint32_t head, std::int32_t& limit, Candidates& found) const noexcept {
-    for (; head != kNone; head = storage_.chunk(head).next_surface) {
-      const PointChunk& surface = storage_.chunk(head);
+    for (; head != kNone; head = chunks_[head].next_surface) {
+      const PointChunk& surface = chunks_[head];
       if (gate_.reads_surface(surface)) {
         collect_surface(head, surface, limit, found);
       }
@@ -181,12 +183,12 @@ class NearestQuery {
       Candidates& found) const noexcept {
     const bool tests_points = gate_.tests_points(surface);
     int left = surface.size;
-    for (std::uint32_t id = head; left > 0; id = storage_.chunk(id).next, left -= kLanes) {
+    for (std::uint32_t id = head; left > 0; id = chunks_[id].next, left -= kLanes) {
       IntLanes distances;
-      sq_distances(storage_.chunk(id), lanes_, distances);
+      sq_distances(chunks_[id], lanes_, distances);
       std::uint32_t mask = lanes_below(distances, limit) & first_lanes(left);
       if (tests_points && mask != 0) {
-        mask &= gate_.facing(storage_.normals(id));
+        mask &= gate_.facing(normals_[id]);
       }
       if (mask == 0) {
         continue;
@@ -199,10 +201,14 @@ class NearestQuery {
   }
 
   const VoxelStorage& storage_;
-  const Gate& gate_;
+  // Copied from it: behind a reference they would be read again after each candidate is stored.
+  const Brick* bricks_;
+  const PointChunk* chunks_;
+  const NormalChunk* normals_;
+  Gate gate_;
   VoxelIndex voxel_;
   LanePoint lanes_;
-  std::array<std::array<std::int32_t, 3>, 3> sq_gap_;  // per axis: to the voxel below, here, above
+  std::array<std::array<std::int32_t, 2>, 3> sq_gap_;  // per axis: to the voxel below and above
 };
 
 }  // namespace nvm::detail

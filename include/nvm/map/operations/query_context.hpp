@@ -31,7 +31,7 @@ class VoxelQueryContext {
       return limit;
     }
     // The fewer neighbours, the more the distance of the last one varies from query to query.
-    const float margin = wanted <= 2 ? 4.0F : wanted <= 8 ? 1.8F : 1.5F;
+    const float margin = wanted <= 2 ? 4.0F : wanted <= 8 ? 1.7F : 1.5F;
     const float guess = margin * mean_sq_distance_ + kSlack;
     return guess < static_cast<float>(limit) ? static_cast<std::int32_t>(guess) : limit;
   }

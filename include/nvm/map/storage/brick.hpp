@@ -58,8 +58,8 @@ inline VoxelIndex voxel_index(IndexKey brick_key, int cell) {
       brick.z() * kBrickEdge + (cell >> 2 * kBrickBits)};
 }
 
-/// The slot in Brick::around of the brick `offset` (-1, 0 or 1 per axis) away.
-inline int around_slot(int dx, int dy, int dz) { return (dx + 1) + 3 * (dy + 1) + 9 * (dz + 1); }
+/// Where the brick in a slot of Brick::around lies: -1, 0 or 1 per axis, x fastest.
+inline VoxelIndex around_offset(int slot) { return {slot % 3 - 1, slot / 3 % 3 - 1, slot / 9 - 1}; }
 
 struct alignas(64) Brick {
   std::uint64_t occupied;  // bit c: cell c holds a voxel

@@ -22,21 +22,25 @@ namespace nvm::detail {
 
 // Passed by reference only: by value their ABI would depend on -march.
 using IntLanes = std::int32_t __attribute__((vector_size(4 * kLanes)));
-using ByteLanes = std::int8_t __attribute__((vector_size(kLanes)));
+using UnsignedLanes = std::uint32_t __attribute__((vector_size(4 * kLanes)));
 using ShortLanes = std::int16_t __attribute__((vector_size(2 * kLanes)));
 using ShortPairs = std::int16_t __attribute__((vector_size(4 * kLanes)));
+// Wrapped coordinates: their differences may wrap around, which only unsigned numbers may.
+using WrappedLanes = std::uint16_t __attribute__((vector_size(2 * kLanes)));
+using WrappedPairs = std::uint16_t __attribute__((vector_size(4 * kLanes)));
 
 /// The coordinate of a query, once per lane.
 struct LanePoint {
-  explicit LanePoint(const WrappedPoint& point) : z(ShortLanes{} + point.z) {
+  explicit LanePoint(const WrappedPoint& point)
+      : z(WrappedLanes{} + static_cast<std::uint16_t>(point.z)) {
     const std::uint32_t pair =
         (static_cast<std::uint32_t>(static_cast<std::uint16_t>(point.y)) << 16) |
         static_cast<std::uint16_t>(point.x);
     const IntLanes pairs = IntLanes{} + static_cast<std::int32_t>(pair);
     std::memcpy(&xy, &pairs, sizeof(xy));
   }
-  ShortPairs xy;
-  ShortLanes z;
+  WrappedPairs xy;
+  WrappedLanes z;
 };
 
 /// out[i] = pairs[2 i]^2 + pairs[2 i + 1]^2.
@@ -57,7 +61,8 @@ struct LanePoint {
   std::memcpy(&both, &pairs, sizeof(both));
   const IntLanes low = (both << 16) >> 16;
   const IntLanes high = both >> 16;
-  out = low * low + high * high;
+  out = reinterpret_cast<IntLanes>(
+      reinterpret_cast<UnsignedLanes>(low * low) + reinterpret_cast<UnsignedLanes>(high * high));
 #endif
 }
 
@@ -65,16 +70,20 @@ struct LanePoint {
 /// than 4 voxels away in each axis; lanes without a point hold garbage.
 [[gnu::always_inline]] inline void sq_distances(
     const PointChunk& chunk, const LanePoint& query, IntLanes& out) {
-  ShortPairs xy;
-  ShortLanes z;
+  WrappedPairs xy;
+  WrappedLanes z;
   std::memcpy(&xy, chunk.xy, sizeof(xy));
   std::memcpy(&z, chunk.z, sizeof(z));
-  const ShortPairs dxy = xy - query.xy;
-  const ShortLanes dz = z - query.z;
+  const WrappedPairs dxy = xy - query.xy;
+  const WrappedLanes dz = z - query.z;
+  const UnsignedLanes dz_and_zero = __builtin_convertvector(dz, UnsignedLanes);
   IntLanes sq_xy;
-  add_squares(dxy, sq_xy);
-  const IntLanes wide_dz = __builtin_convertvector(dz, IntLanes);
-  out = sq_xy + wide_dz * wide_dz;
+  IntLanes sq_z;
+  add_squares(reinterpret_cast<ShortPairs>(dxy), sq_xy);
+  add_squares(reinterpret_cast<ShortPairs>(dz_and_zero), sq_z);
+  // Unsigned, because the garbage may overflow.
+  out = reinterpret_cast<IntLanes>(
+      reinterpret_cast<UnsignedLanes>(sq_xy) + reinterpret_cast<UnsignedLanes>(sq_z));
 }
 
 /// Bit i is set when values[i] < limit.
@@ -137,19 +146,50 @@ inline constexpr auto kSetBits = [] {
 /// Bit i is set for the first `count` lanes.
 inline std::uint32_t first_lanes(int count) { return count >= kLanes ? 0xffU : (1U << count) - 1U; }
 
+/// Bit i is set when values[i] > limit.
+[[gnu::always_inline]] inline std::uint32_t lanes_above(
+    const ShortLanes& values, std::int16_t limit) {
+#if defined(__SSE2__)
+  __m128i v;
+  std::memcpy(&v, &values, sizeof(v));
+  const __m128i above = _mm_cmpgt_epi16(v, _mm_set1_epi16(limit));
+  return static_cast<std::uint32_t>(_mm_movemask_epi8(_mm_packs_epi16(above, _mm_setzero_si128())));
+#else
+  std::uint32_t mask = 0;
+  for (int lane = 0; lane < kLanes; ++lane) {
+    mask |= static_cast<std::uint32_t>(values[lane] > limit) << lane;
+  }
+  return mask;
+#endif
+}
+
+/// Eight components of normals, from `bytes`.
+[[gnu::always_inline]] inline void widen(const std::int8_t* bytes, WrappedLanes& out) {
+#if defined(__SSE2__)
+  __m128i v = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(bytes));
+  v = _mm_srai_epi16(_mm_unpacklo_epi8(v, v), 8);
+  std::memcpy(&out, &v, sizeof(v));
+#else
+  std::int8_t __attribute__((vector_size(kLanes))) lanes;
+  std::memcpy(&lanes, bytes, sizeof(lanes));
+  out = reinterpret_cast<WrappedLanes>(__builtin_convertvector(lanes, ShortLanes));
+#endif
+}
+
 /// Bit i is set when the dot of normal i with `normal` exceeds `threshold`.
 [[gnu::always_inline]] inline std::uint32_t lanes_facing(
     const NormalChunk& chunk, const StoredNormal& normal, int threshold) {
-  ByteLanes x;
-  ByteLanes y;
-  ByteLanes z;
-  std::memcpy(&x, chunk.x, sizeof(x));
-  std::memcpy(&y, chunk.y, sizeof(y));
-  std::memcpy(&z, chunk.z, sizeof(z));
-  const IntLanes dots = __builtin_convertvector(x, IntLanes) * normal.x +
-                        __builtin_convertvector(y, IntLanes) * normal.y +
-                        __builtin_convertvector(z, IntLanes) * normal.z;
-  return lanes_below(-dots, -threshold);
+  WrappedLanes x;
+  WrappedLanes y;
+  WrappedLanes z;
+  widen(chunk.x, x);
+  widen(chunk.y, y);
+  widen(chunk.z, z);
+  // The dot of two unit vectors fits into 16 bits, whatever wraps around on the way.
+  const WrappedLanes dots = x * static_cast<std::uint16_t>(normal.x) +
+                            y * static_cast<std::uint16_t>(normal.y) +
+                            z * static_cast<std::uint16_t>(normal.z);
+  return lanes_above(reinterpret_cast<ShortLanes>(dots), static_cast<std::int16_t>(threshold));
 }
 
 }  // namespace nvm::detail

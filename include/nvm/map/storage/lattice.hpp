@@ -52,7 +52,8 @@ class Lattice {
   explicit Lattice(double voxel_size)
       : voxels_per_meter_(1.0 / voxel_size),
         meters_per_step_(voxel_size / kStepsPerVoxel),
-        steps_per_meter_(kStepsPerVoxel / voxel_size) {}
+        steps_per_meter_(kStepsPerVoxel / voxel_size),
+        sq_meters_per_sq_step_(static_cast<float>(meters_per_step_ * meters_per_step_)) {}
 
   /// Whether the lattice holds a position given in voxels.
   static LatticeStatus judge(const Eigen::Vector3d& scaled) noexcept {
@@ -92,7 +93,7 @@ class Lattice {
   double voxels_per_meter() const noexcept { return voxels_per_meter_; }
 
   float sq_meters(std::int32_t sq_steps) const noexcept {
-    return static_cast<float>(sq_steps * meters_per_step_ * meters_per_step_);
+    return static_cast<float>(sq_steps) * sq_meters_per_sq_step_;
   }
 
   /// The square of `meters` (not NaN) in lattice steps, rounded down and at most 2^30.
@@ -105,6 +106,7 @@ class Lattice {
   double voxels_per_meter_;
   double meters_per_step_;
   double steps_per_meter_;
+  float sq_meters_per_sq_step_;
 };
 
 inline WrappedPoint wrap(const LatticePoint& point) {

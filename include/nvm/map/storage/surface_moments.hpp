@@ -9,11 +9,10 @@
 
 namespace nvm::detail {
 
-/// Sum n and sum n n^T over the stored normals of a surface: exact integers, so that neither the
-/// order of insertion nor an erasure leaves a trace.
+/// Sum n n^T over the stored normals of a surface: exact integers, so that neither the order of
+/// insertion nor an erasure leaves a trace.
 struct SurfaceMoments {
   std::int32_t xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
-  std::int16_t x = 0, y = 0, z = 0;
 
   void add(const StoredNormal& n) {
     xx += n.x * n.x;
@@ -22,9 +21,6 @@ struct SurfaceMoments {
     yy += n.y * n.y;
     yz += n.y * n.z;
     zz += n.z * n.z;
-    x = static_cast<std::int16_t>(x + n.x);
-    y = static_cast<std::int16_t>(y + n.y);
-    z = static_cast<std::int16_t>(z + n.z);
   }
 };
 
@@ -71,28 +67,19 @@ inline WideMatrix scaled_square(const WideMatrix& m) {
       square.zz >> shift};
 }
 
+/// The unit vector along `v`; zero for zero.
 inline StoredNormal store_direction(const WideVector& v) {
-  const auto sq_length = static_cast<float>(dot(v, v));
-  if (sq_length == 0.0F) {
+  const auto x = static_cast<float>(v.x);
+  const auto y = static_cast<float>(v.y);
+  const auto z = static_cast<float>(v.z);
+  // Products of floats are exact in double, so that a fused multiply-add changes nothing.
+  const double sq_length = double{x} * x + double{y} * y + double{z} * z;
+  if (sq_length == 0.0) {
     return {};
   }
-  const float scale = 1.0F / std::sqrt(sq_length);
-  const auto component = [scale](std::int64_t value) {
-    return store_component(static_cast<float>(value) * scale);
-  };
-  return {component(v.x), component(v.y), component(v.z)};
+  const auto scale = static_cast<float>(1.0 / std::sqrt(sq_length));
+  return {store_component(x * scale), store_component(y * scale), store_component(z * scale)};
 }
-
-/// True when the angle between two vectors is below 0.02 rad.
-inline bool is_parallel(const WideVector& a, const WideVector& b) {
-  constexpr double kSqTangent = 0.02 * 0.02;
-  const WideVector cross{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-  const auto along = static_cast<double>(dot(a, b));
-  const auto sq = [](std::int64_t v) { return static_cast<double>(v) * static_cast<double>(v); };
-  return sq(cross.x) + sq(cross.y) + sq(cross.z) < kSqTangent * along * along;
-}
-
-inline WideVector widened(const StoredNormal& n) { return {n.x, n.y, n.z}; }
 
 /// The eigenvector of the largest eigenvalue of `m`, of either sign: a column of m^32, whose error
 /// is the 32nd power of the ratio of the two largest eigenvalues.
@@ -110,29 +97,34 @@ inline WideMatrix matrix_of(const SurfaceMoments& moments) {
   return {moments.xx, moments.xy, moments.xz, moments.yy, moments.yz, moments.zz};
 }
 
-/// True when `direction` is the principal direction to about 2 degrees, more than enough for a
-/// threshold of 90 +- 10: the matrix hardly turns it, its eigenvalue is more than half of the
-/// trace, and it looks where the sum looks.
-inline bool is_principal(const SurfaceMoments& moments, const StoredNormal& direction) {
-  const WideMatrix m = matrix_of(moments);
-  const WideVector v = widened(direction);
-  const WideVector image = m * v;
-  return is_parallel(v, image) && 2 * dot(v, image) > (m.xx + m.yy + m.zz) * dot(v, v) &&
-         dot(v, {moments.x, moments.y, moments.z}) > 0;
+/// True when `direction` is, up to its sign, the principal direction to about 2 degrees, more than
+/// enough for a threshold of 90 +- 10: the matrix turns it by less than 1.3 degrees, and its
+/// eigenvalue is more than half of the trace.
+inline bool is_principal(const SurfaceMoments& m, const StoredNormal& direction) {
+  // Keeps the products below 2^63; division, unlike a shift, treats both signs alike.
+  constexpr std::int32_t kScale = 1 << 12;
+  const std::int64_t x = (m.xx * direction.x + m.xy * direction.y + m.xz * direction.z) / kScale;
+  const std::int64_t y = (m.xy * direction.x + m.yy * direction.y + m.yz * direction.z) / kScale;
+  const std::int64_t z = (m.xz * direction.x + m.yz * direction.y + m.zz * direction.z) / kScale;
+  const std::int64_t along = x * direction.x + y * direction.y + z * direction.z;
+  const std::int64_t sq_direction = dot(direction, direction);
+  const std::int64_t sq_across = sq_direction * (x * x + y * y + z * z) - along * along;
+  const std::int64_t trace = m.xx + m.yy + m.zz;
+  return sq_across < along * along / 2048 && 2 * along > trace * sq_direction / kScale;
 }
 
 /// The principal direction of a surface (spec §3.3): the dominant eigenvector of sum n n^T with the
-/// sign of sum n; zero without normals. In integers, because a fused multiply-add here would make
-/// maps differ between processors.
-inline StoredNormal principal_direction(const SurfaceMoments& moments) {
-  const WideVector sum{moments.x, moments.y, moments.z};
+/// sign of `sum`, sum n; zero without normals. In integers, because a fused multiply-add here would
+/// make maps differ between processors.
+inline StoredNormal principal_direction(const SurfaceMoments& moments, const WideVector& sum) {
+  const WideMatrix matrix = matrix_of(moments);
   // Where the normals agree, as on any wall, one step of the power iteration from their sum is all
-  // it takes.
-  const StoredNormal guess = store_direction(matrix_of(moments) * sum);
+  // it takes, and keeps the sum's sign: the matrix is positive.
+  const StoredNormal guess = store_direction(matrix * sum);
   if (is_principal(moments, guess)) {
     return guess;
   }
-  const WideVector eigenvector = dominant_eigenvector(matrix_of(moments));
+  const WideVector eigenvector = dominant_eigenvector(matrix);
   const std::int64_t sign = dot(eigenvector, sum) < 0 ? -1 : 1;
   return store_direction({sign * eigenvector.x, sign * eigenvector.y, sign * eigenvector.z});
 }

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The nvm authors
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -29,6 +30,8 @@ class SurfaceStorage {
         normals_(allocate_uninitialized<NormalChunk>(capacity)),
         moments_(allocate_uninitialized<SurfaceMoments>(capacity)) {}
 
+  const PointChunk* chunks() const noexcept { return chunks_.get(); }
+  const NormalChunk* normals() const noexcept { return normals_.get(); }
   const PointChunk& chunk(std::uint32_t id) const noexcept { return chunks_[id]; }
   const NormalChunk& normals(std::uint32_t chunk) const noexcept { return normals_[chunk]; }
   /// Starts to load what an append to the surface at `head` touches.
@@ -111,17 +114,33 @@ class SurfaceStorage {
   /// After `added` has joined the surface.
   void update_direction(std::uint32_t head, const StoredNormal& added) noexcept {
     PointChunk& surface = chunks_[head];
+    const int along = dot(added, surface.direction);
     if (surface.size == 1) {
       surface.direction = added;
       surface.tight = 1;
-      return;
+    } else if (along > 0 && is_principal(moments_[head], surface.direction)) {
+      // Still: the usual case. Its sign is right, because the sum came to lie nearer to it.
+      surface.tight = surface.tight != 0 && along > kTightDot ? 1 : 0;
+    } else if (added == StoredNormal{}) {
+      surface.tight = 0;
+    } else {
+      surface.direction = principal_direction(moments_[head], sum_of_normals(head));
+      surface.tight = is_tight(head) ? 1 : 0;
     }
-    if (is_principal(moments_[head], surface.direction)) {  // still: the usual case
-      surface.tight = surface.tight != 0 && dot(added, surface.direction) > kTightDot ? 1 : 0;
-      return;
+  }
+
+  WideVector sum_of_normals(std::uint32_t head) const noexcept {
+    WideVector sum{0, 0, 0};
+    int left = chunks_[head].size;
+    for (std::uint32_t id = head; left > 0; id = chunks_[id].next, left -= kLanes) {
+      for (int lane = 0; lane < std::min(left, kLanes); ++lane) {
+        const StoredNormal normal = normals_[id].get(lane);
+        sum.x += normal.x;
+        sum.y += normal.y;
+        sum.z += normal.z;
+      }
     }
-    surface.direction = principal_direction(moments_[head]);
-    surface.tight = is_tight(head) ? 1 : 0;
+    return sum;
   }
 
   bool is_tight(std::uint32_t head) const noexcept {

@@ -45,6 +45,7 @@ class VoxelStorage : public SurfaceStorage {
   bool is_brick(std::uint32_t brick, IndexKey key) const noexcept {
     return brick < brick_ids_.high_water() && bricks_[brick].key == key;
   }
+  const Brick* bricks() const noexcept { return bricks_.get(); }
   const Brick& brick(std::uint32_t id) const noexcept { return bricks_[id]; }
 
   /// Head chunk of the voxel's front surface, or kNone when there is no such voxel.
@@ -259,8 +260,7 @@ class VoxelStorage : public SurfaceStorage {
   void link_neighbors(std::uint32_t id, const VoxelIndex& index) noexcept {
     constexpr std::size_t kMiddle = kBricksAround / 2;
     for (std::size_t slot = 0; slot < kBricksAround; ++slot) {
-      const auto s = static_cast<int>(slot);
-      const VoxelIndex other = index + VoxelIndex(s % 3 - 1, s / 3 % 3 - 1, s / 9 - 1);
+      const VoxelIndex other = index + around_offset(static_cast<int>(slot));
       const std::uint32_t neighbor = slot == kMiddle ? id : table_.find(index_key(other));
       bricks_[id].around[slot] = neighbor;
       if (neighbor != kNone) {
