@@ -47,7 +47,9 @@ PipelineOptions::PipelineOptions() {
   inertial.normals.min_range = inertial.range.min_range;
   inertial.normals.max_range = inertial.range.max_range;
   inertial.normals.max_linearity = 0.95;
-  inertial.normals.max_plane_deviation = 0.015;
+  align.association.neighbors = 8;
+  align.association.max_neighbor_distance = 0.6;
+  align.kernel.scale = 0.02;
   align.max_iterations = 10;
   align.converged_translation = 2e-4;
   align.converged_rotation = 5e-5;

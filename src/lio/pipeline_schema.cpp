@@ -59,8 +59,6 @@ void bind_normals(Schema& schema, NormalOptions& normals) {
   schema.add("max_linearity", normals.max_linearity, {0.334, 1.0}, "First eigenvalue's share");
   schema.add(
       "max_surface_variation", normals.max_surface_variation, {0.0, 0.334}, "Third one's share");
-  schema.add(
-      "max_plane_deviation", normals.max_plane_deviation, kPositive, "Of a neighbourhood [m]");
 }
 
 void bind_imu(Schema& schema, InertialOptions& inertial) {

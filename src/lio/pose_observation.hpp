@@ -6,8 +6,8 @@ namespace nvm::lio {
 
 /// How sure the filter may be of a pose that the optimisation found: one standard deviation.
 struct PoseObservation {
-  double translation_deviation = 0.002;  ///< [m]
-  double rotation_deviation = 0.0005;    ///< [rad]
+  double translation_deviation = 0.006;  ///< [m]
+  double rotation_deviation = 0.0015;    ///< [rad]
 
   void validate() const;
 };

@@ -46,8 +46,7 @@ class NormalEstimator {
       const Points& points, const Viewpoints& viewpoints, const Executor& executor = {}) & {
     prepare_cloud(points, viewpoints, executor);
     result_.status = cloud_status_;
-    result_.normals.assign(points.size(), Eigen::Vector3f::Zero());
-    result_.plane_offsets.assign(points.size(), 0.0F);
+    clear_planes(points.size());
     if (options_.method == NormalMethod::kPerCell) {
       solve_cells(executor);
     } else {
@@ -72,8 +71,7 @@ class NormalEstimator {
     prepare_cloud(points, viewpoint, executor);
     localize(queries, viewpoint, position(viewpoint), result_.status, executor);
     sorter_.sort(local_, result_.status, sort_edge(), queries_);
-    result_.normals.assign(queries.size(), Eigen::Vector3f::Zero());
-    result_.plane_offsets.assign(queries.size(), 0.0F);
+    clear_planes(queries.size());
     solve(queries_, result_, executor);
     finish(queries, viewpoint, executor);
     return result_;
@@ -145,6 +143,12 @@ class NormalEstimator {
     });
   }
 
+  void clear_planes(std::size_t size) {
+    result_.normals.assign(size, Eigen::Vector3f::Zero());
+    result_.plane_offsets.assign(size, 0.0F);
+    result_.plane_variances.assign(size, 0.0F);
+  }
+
   template <class Executor>
   void solve(const detail::SortedPoints& queries, NormalResult& result, const Executor& executor) {
     switch (options_.method) {
@@ -167,6 +171,7 @@ class NormalEstimator {
     cell_result_.status.resize(grid_.size());
     cell_result_.normals.resize(grid_.size());
     cell_result_.plane_offsets.resize(grid_.size());
+    cell_result_.plane_variances.resize(grid_.size());
     solve(grid_.means(), cell_result_, executor);
     grid_.for_each_point(cloud_, [this](std::size_t cell, std::size_t point) {
       result_.status[point] = cell_result_.status[cell];
@@ -178,6 +183,7 @@ class NormalEstimator {
           mean.z[cell] - local_.z[point]);
       result_.normals[point] = normal;
       result_.plane_offsets[point] = cell_result_.plane_offsets[cell] + normal.dot(to_mean);
+      result_.plane_variances[point] = cell_result_.plane_variances[cell];
     });
   }
 

@@ -33,10 +33,6 @@ struct NormalOptions {
   /// Largest share of the third eigenvalue in the sum of the three, above 0 to 1/3: the surface
   /// variation. Rejects corners and clutter.
   double max_surface_variation = 0.03;
-  /// Largest standard deviation [m] of the neighbours from their plane, above 0. Rejects the rims
-  /// of corners in large neighbourhoods, of which they are a small share. The default rejects
-  /// nothing.
-  double max_plane_deviation = 1e4;
   NormalMethod method = NormalMethod::kBlockTree;
   /// With kPerCell: edge of a cell [m], 0.001 to 1000. A cell is a neighbour when its mean is
   /// within the radius, which is 1.5 cells at least.
@@ -70,7 +66,6 @@ struct NormalOptions {
         "max_surface_variation",
         max_surface_variation,
         "above 0 to 1/3");
-    require(max_plane_deviation > 0.0, "max_plane_deviation", max_plane_deviation, "positive [m]");
     require(cell_size >= 0.001 && cell_size <= 1000.0, "cell_size", cell_size, "0.001 to 1000 [m]");
   }
 };

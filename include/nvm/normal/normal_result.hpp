@@ -41,6 +41,8 @@ struct NormalResult {
   /// Signed distance [m] along the normal from each point to the least-squares plane of its
   /// neighbourhood: points[i] + plane_offsets[i] * normals[i] lies on it. Zero as the normals are.
   std::vector<float> plane_offsets;
+  /// Mean squared distance [m^2] of the neighbours to that plane; zero as the normals are.
+  std::vector<float> plane_variances;
   std::vector<NormalStatus> status;
   NormalStats stats;
 };

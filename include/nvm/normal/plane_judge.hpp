@@ -21,11 +21,9 @@ class PlaneJudge {
   explicit PlaneJudge(const NormalOptions& options)
       : min_neighbors_(static_cast<float>(options.min_neighbors)),
         max_linearity_(static_cast<float>(options.max_linearity)),
-        max_surface_variation_(static_cast<float>(options.max_surface_variation)),
-        max_plane_variance_(
-            static_cast<float>(options.max_plane_deviation * options.max_plane_deviation)) {}
+        max_surface_variation_(static_cast<float>(options.max_surface_variation)) {}
 
-  /// Writes status, and normal and plane offset of either sign, of one block of queries.
+  /// Writes status and plane, its normal of either sign, of one block of queries.
   void operator()(
       const QueryBlock& query, const Moments<FloatLanes>& sums, NormalResult& result) const {
     const Eigen3<FloatLanes> eigen = eigen_decomposition(scatter(sums));
@@ -36,6 +34,7 @@ class PlaneJudge {
     const FloatLanes y = is_valid ? eigen.smallest_vector.y : zero;
     const FloatLanes z = is_valid ? eigen.smallest_vector.z : zero;
     // The sums are relative to the query.
+    const FloatLanes variance = is_valid ? larger(eigen.smallest, zero) / sums.count : zero;
     const FloatLanes offset = is_valid ? (x * sums.x + y * sums.y + z * sums.z) / sums.count : zero;
     for (std::size_t i = query.begin; i < query.end; ++i) {
       const std::size_t lane = i - query.begin;
@@ -43,6 +42,7 @@ class PlaneJudge {
       result.status[out] = static_cast<NormalStatus>(verdict[lane]);
       result.normals[out] = {x[lane], y[lane], z[lane]};
       result.plane_offsets[out] = offset[lane];
+      result.plane_variances[out] = variance[lane];
     }
   }
 
@@ -50,8 +50,7 @@ class PlaneJudge {
   // A NormalStatus per lane. The comparisons are false for NaN, which no plane has.
   FloatLaneBits judge(const FloatLanes& count, const Eigen3<FloatLanes>& eigen) const {
     const FloatLanes sum = eigen.smallest + eigen.middle + eigen.largest;
-    const auto is_flat = (eigen.smallest <= max_surface_variation_ * sum) &
-                         (eigen.smallest <= max_plane_variance_ * count);
+    const auto is_flat = eigen.smallest <= max_surface_variation_ * sum;
     const auto is_wide = (eigen.largest <= max_linearity_ * sum) & (sum > 0.0F);
     const auto is_many = count >= min_neighbors_;
     const auto status = [](NormalStatus value) {
@@ -63,7 +62,7 @@ class PlaneJudge {
     return is_many ? verdict : status(NormalStatus::kFewNeighbors);
   }
 
-  float min_neighbors_, max_linearity_, max_surface_variation_, max_plane_variance_;
+  float min_neighbors_, max_linearity_, max_surface_variation_;
 };
 
 }  // namespace nvm::detail
