@@ -66,11 +66,11 @@ def figures(records: dict, instructions) -> dict:
         "query20_ratio_kiss": ratio(records, f"nearest<KissStyle>/20{scan_order}", f"nearest<Nvm>/20{scan_order}"),
         "insert_raw_ratio_kiss": ratio(records, "insert_raw<KissStyle>", "insert_raw<Nvm>", per_point),
         "insert_new_ratio_kiss": ratio(records, "insert_new<KissStyle>", "insert_new<Nvm>", per_point),
-        "insert_worst_scan_ms": median(records.get("grow/10000000", []), "worst_patch_ms"),
+        "insert_worst_scan_ms": median(records.get("grow<Nvm>/10000000", []), "worst_patch_ms"),
         "bytes_per_point": median(records.get("memory", []), "bytes_per_point"),
         "normals_radius_ratio_pcl": ratio(records, "pcl_baseline/0", "estimate/fixed_block_tree/0"),
         "normals_adaptive_ratio_nanoflann": ratio(records, "nanoflann_baseline/adaptive/0", "estimate/adaptive_block_tree/0"),
-        "query_growth_1e4_1e7": ratio(records, "grow/10000000", "grow/10000", "query5_ns"),
+        "query_growth_1e4_1e7": ratio(records, "grow<Nvm>/10000000", "grow<Nvm>/10000", "query5_ns"),
     }
 
 
