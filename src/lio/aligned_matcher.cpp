@@ -21,16 +21,11 @@ MatchResult AlignedMatcher::match(const LioMap& map, PreparedScan& scan, ErrorSt
     points_.push_back(scan.scan.points[index]);
     normals_.push_back(scan.normals[index]);
   }
+  const AlignResult aligned =
+      aligner_.align(map, points_, normals_, filter.state().T_world_lidar(), executor_);
   MatchResult result;
-  AlignResult aligned;
-  aligned.T_map_scan = filter.state().T_world_lidar();
-  const int rounds = rounds_for(pose_doubt(filter));
-  for (int round = 0; round < rounds && aligned.status != AlignStatus::kConverged; ++round) {
-    aligned = aligner_.align(map, points_, normals_, aligned.T_map_scan, executor_);
-    result.iterations += aligned.iterations;
-  }
-  result.accepted = aligned.status == AlignStatus::kConverged ||
-                    (aligned.status == AlignStatus::kMaxIterations && rounds == 1);
+  result.accepted = aligned.status != AlignStatus::kTooFewResiduals;
+  result.iterations = aligned.iterations;
   result.residuals = aligned.counts.valid;
   result.inlier_share = aligned.inlier_share();
   result.residual_rms = aligned.rms_distance;
@@ -57,15 +52,6 @@ PoseObservation pose_doubt(const ErrorStateFilter& filter) {
   return {
       std::sqrt(variances.segment<3>(kPosition).maxCoeff()),
       std::sqrt(variances.segment<3>(kRotation).maxCoeff())};
-}
-
-int rounds_for(const PoseObservation& doubt) {
-  constexpr PoseObservation kSure{0.05, 0.05};
-  constexpr int kDoubtfulRounds = 5;
-  return doubt.translation_deviation < kSure.translation_deviation &&
-                 doubt.rotation_deviation < kSure.rotation_deviation
-             ? 1
-             : kDoubtfulRounds;
 }
 
 void PoseObservation::validate() const {

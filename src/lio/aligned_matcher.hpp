@@ -32,8 +32,4 @@ void observe_lidar_pose(
 /// How unsure `filter` is of the body's pose: one standard deviation.
 PoseObservation pose_doubt(const ErrorStateFilter& filter);
 
-/// How many times the usual number of iterations an optimisation may take from a prediction as
-/// unsure as this: after a gap the way is long, and what has not converged then is not believed.
-int rounds_for(const PoseObservation& doubt);
-
 }  // namespace nvm::lio

@@ -43,8 +43,7 @@ MatchResult ContinuousMatcher::match(
   correction_.setZero();
   MatchResult result;
   bool converged = false;
-  const int rounds = rounds_for(doubt_);
-  while (result.iterations < rounds * options_.max_iterations && !converged) {
+  while (result.iterations < options_.max_iterations && !converged) {
     Sums sums = linearize(map, scan, predicted);
     result.residuals = sums.end.counts.valid;
     result.inlier_share = static_cast<double>(sums.end.counts.valid) /
@@ -62,10 +61,7 @@ MatchResult ContinuousMatcher::match(
     converged = step.segment<3>(6).norm() < options_.converged_rotation &&
                 step.segment<3>(9).norm() < options_.converged_translation;
   }
-  result.accepted = converged || rounds == 1;
-  if (!result.accepted) {
-    return result;
-  }
+  result.accepted = true;
   observe_lidar_pose(retract(predicted, correction_.tail<6>()), observation_, filter);
   correct_points(predicted, scan.scan);
   return result;

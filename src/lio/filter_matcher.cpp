@@ -6,32 +6,16 @@
 
 namespace nvm::lio {
 
-namespace {
-
-constexpr PoseObservation kRough{0.05, 0.02};
-
-}  // namespace
-
 FilterMatcher::FilterMatcher(
     const MeasurementOptions& measurement,
     const IterationOptions& iteration,
-    const AlignOptions& align,
     const Executor& executor)
-    : options_(measurement),
-      iteration_(iteration),
-      measurement_(measurement, executor),
-      rough_matcher_(align, kRough, executor) {
+    : options_(measurement), iteration_(iteration), measurement_(measurement, executor) {
   iteration.validate();
 }
 
 MatchResult FilterMatcher::match(const LioMap& map, PreparedScan& scan, ErrorStateFilter& filter) {
   const NavState predicted = filter.state();
-  if (rounds_for(pose_doubt(filter)) > 1) {
-    const MatchResult rough = rough_matcher_.match(map, scan, filter);
-    if (!rough.accepted) {
-      return rough;
-    }
-  }
   measurement_.start(scan.scan, scan.normals, scan.keypoints, predicted);
   MatchResult result;
   const auto linearize = [&](const NavState& state, bool associate, Information& information) {

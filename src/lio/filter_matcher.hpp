@@ -2,21 +2,18 @@
 // Copyright (c) 2026 The nvm authors
 #pragma once
 
-#include "lio/aligned_matcher.hpp"
 #include "lio/plane_measurement.hpp"
 #include "lio/scan_matcher.hpp"
 
 namespace nvm::lio {
 
 /// FAST-LIO style: the distances of the keypoints to their planes correct the filter directly, in
-/// an iterated update with new correspondences whenever it has converged. After a gap the
-/// prediction is too far off for that: then the scan is first aligned roughly, by `align`.
+/// an iterated update with new correspondences whenever it has converged.
 class FilterMatcher final : public ScanMatcher {
  public:
   FilterMatcher(
       const MeasurementOptions& measurement,
       const IterationOptions& iteration,
-      const AlignOptions& align,
       const Executor& executor);
 
   MatchResult match(const LioMap& map, PreparedScan& scan, ErrorStateFilter& filter) override;
@@ -25,7 +22,6 @@ class FilterMatcher final : public ScanMatcher {
   MeasurementOptions options_;
   IterationOptions iteration_;
   PlaneMeasurement measurement_;
-  AlignedMatcher rough_matcher_;
 };
 
 }  // namespace nvm::lio

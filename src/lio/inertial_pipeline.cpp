@@ -5,11 +5,26 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lio/aligned_matcher.hpp"
 #include "lio/plane_projection.hpp"
 #include "lio/stage_timer.hpp"
 #include "nvm/core/require.hpp"
 
 namespace nvm::lio {
+
+namespace {
+
+/// A prediction less sure than this is looked for on a coarse map first [m].
+constexpr double kMaxDoubt = 0.15;
+constexpr PoseObservation kFoundAgain{0.2, 0.05};
+
+/// Whether a match that began far off is beyond doubt: most of the scan is in the map, and near it.
+bool fits_well(const MatchResult& match, std::size_t keypoints) {
+  constexpr double kMaxRms = 0.05;  // [m]
+  return 2 * match.residuals >= keypoints && match.residual_rms <= kMaxRms;
+}
+
+}  // namespace
 
 const char* name(FrameStatus status) {
   switch (status) {
@@ -37,6 +52,7 @@ InertialPipeline::InertialPipeline(
       initializer_(options.initializer),
       normal_estimator_(options.normals),
       sampler_(options.keypoints),
+      search_(StartSearchOptions{}, executor),
       map_(std::move(map)),
       matcher_(std::move(matcher)) {}
 
@@ -82,7 +98,7 @@ bool InertialPipeline::initialize(double until, FrameResult& result) {
 }
 
 // The first scan makes the map where the assumed extrinsic puts it, so that in this map the body's
-// pose is as unsure as the extrinsic.
+// pose and gravity are as unsure as the extrinsic.
 NavVector InertialPipeline::extrinsic_deviations() const {
   NavVector deviations = NavVector::Zero();
   for (const NavIndex part : {kPosition, kLidarPosition}) {
@@ -91,6 +107,7 @@ NavVector InertialPipeline::extrinsic_deviations() const {
   for (const NavIndex part : {kRotation, kLidarRotation}) {
     deviations.segment<3>(part).setConstant(options_.extrinsic_rotation_deviation);
   }
+  deviations.segment<2>(kGravity).setConstant(options_.extrinsic_rotation_deviation);
   return deviations;
 }
 
@@ -163,6 +180,12 @@ void InertialPipeline::prepare(const Scan& scan, FrameResult& result) {
 void InertialPipeline::match(FrameResult& result) {
   const StageTimer timer(result.times.optimize);
   prepared_.keypoints = sampler_.sample(prepared_.scan.points, prepared_.normals);
+  key_points_.clear();
+  key_normals_.clear();
+  for (const std::uint32_t index : prepared_.keypoints) {
+    key_points_.push_back(prepared_.scan.points[index]);
+    key_normals_.push_back(prepared_.normals[index]);
+  }
   result.points = prepared_.scan.size();
   result.keypoints = prepared_.keypoints.size();
   if (map_->size() == 0) {
@@ -170,12 +193,17 @@ void InertialPipeline::match(FrameResult& result) {
     return;
   }
   const ErrorStateFilter predicted = *filter_;
+  const bool is_sure = pose_doubt(*filter_).translation_deviation < kMaxDoubt;
+  if (!is_sure) {
+    find_again();
+  }
   const MatchResult match = matcher_->match(*map_, prepared_, *filter_);
   result.residuals = match.residuals;
   result.residual_rms = match.residual_rms;
   result.degenerate_directions = match.degenerate_directions;
   result.iterations = match.iterations;
-  if (match.accepted && match.inlier_share >= options_.min_inlier_share) {
+  if (match.accepted && match.inlier_share >= options_.min_inlier_share &&
+      (is_sure || fits_well(match, result.keypoints))) {
     result.status = FrameStatus::kTracking;
     believe();
     return;
@@ -186,13 +214,24 @@ void InertialPipeline::match(FrameResult& result) {
   result.message = "too little of the scan fits the map";
 }
 
+// The map's voxels reach no farther than their size, a coarse map's do.
+void InertialPipeline::find_again() {
+  const NavState predicted = filter_->state();
+  const std::vector<Pose> guesses = {
+      predicted.T_world_lidar(), last_believed_.pose * predicted.T_body_lidar};
+  const std::vector<Pose> found = search_.search(key_points_, key_normals_, guesses);
+  observe_lidar_pose(found.front(), kFoundAgain, *filter_);
+  correct_deskew(predicted, filter_->state(), prepared_.scan);
+}
+
 void InertialPipeline::insert(FrameResult& result) {
   if (result.status != FrameStatus::kTracking) {
     return;
   }
   const StageTimer timer(result.times.map_update);
-  result.inserted =
-      map_->insert(prepared_.scan.points, prepared_.normals, filter_->state().T_world_lidar());
+  const Pose T_map_lidar = filter_->state().T_world_lidar();
+  result.inserted = map_->insert(prepared_.scan.points, prepared_.normals, T_map_lidar);
+  search_.insert(key_points_, key_normals_, T_map_lidar);
 }
 
 void InertialOptions::validate() const {

@@ -14,6 +14,7 @@
 #include "lio/keypoints.hpp"
 #include "lio/pipeline.hpp"
 #include "lio/scan_matcher.hpp"
+#include "lio/start_search.hpp"
 #include "nvm/geometry/trajectory.hpp"
 #include "nvm/normal/normal_estimator.hpp"
 
@@ -71,6 +72,7 @@ class InertialPipeline final : public Pipeline {
   void believe();
   void prepare(const Scan& scan, FrameResult& result);
   void match(FrameResult& result);
+  void find_again();
   void insert(FrameResult& result);
 
   InertialOptions options_;
@@ -79,6 +81,7 @@ class InertialPipeline final : public Pipeline {
   ImuInitializer initializer_;
   NormalEstimator normal_estimator_;
   KeypointSampler sampler_;
+  StartSearch search_;
   std::unique_ptr<LioMap> map_;
   std::unique_ptr<ScanMatcher> matcher_;
   std::optional<ErrorStateFilter> filter_;
@@ -89,6 +92,7 @@ class InertialPipeline final : public Pipeline {
   std::vector<ImuSample> samples_;
   std::vector<MotionSegment> segments_;
   PreparedScan prepared_;
+  std::vector<Eigen::Vector3f> key_points_, key_normals_;
 };
 
 }  // namespace nvm::lio

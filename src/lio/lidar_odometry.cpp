@@ -6,7 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "lio/plane_projection.hpp"
 #include "lio/stage_timer.hpp"
 #include "nvm/core/require.hpp"
 
@@ -31,9 +30,9 @@ FrameResult LidarOdometry::process(const Scan& scan) {
   if (!is_usable(scan, result)) {
     return result;
   }
-  prepare(scan, result);
-  match(result);
-  insert(result);
+  const Normals& normals = prepare(scan, result);
+  match(normals, result);
+  insert(normals, result);
   return result;
 }
 
@@ -58,7 +57,7 @@ void LidarOdometry::predict(const Scan& scan) {
   predicted_.T_world_body = motion.at(scan.t_end, horizon).T_world_body;
 }
 
-void LidarOdometry::prepare(const Scan& scan, FrameResult& result) {
+const LidarOdometry::Normals& LidarOdometry::prepare(const Scan& scan, FrameResult& result) {
   {
     const StageTimer timer(result.times.deskew);
     predict(scan);
@@ -66,19 +65,16 @@ void LidarOdometry::prepare(const Scan& scan, FrameResult& result) {
   }
   const StageTimer timer(result.times.normals);
   result.points = scan_.size();
-  normals_ = project_to_planes(
-      normal_estimator_.estimate(scan_.points, scan_.viewpoints, executor_),
-      options_.max_plane_offset,
-      scan_);
+  return normal_estimator_.estimate(scan_.points, scan_.viewpoints, executor_).normals;
 }
 
-void LidarOdometry::match(FrameResult& result) {
+void LidarOdometry::match(const Normals& normals, FrameResult& result) {
   const StageTimer timer(result.times.optimize);
   key_points_.clear();
   key_normals_.clear();
-  for (const std::uint32_t index : sampler_.sample(scan_.points, normals_)) {
+  for (const std::uint32_t index : sampler_.sample(scan_.points, normals)) {
     key_points_.push_back(scan_.points[index]);
-    key_normals_.push_back(normals_[index]);
+    key_normals_.push_back(normals[index]);
   }
   result.keypoints = key_points_.size();
   result.T_map_lidar = predicted_.T_world_lidar();
@@ -88,7 +84,7 @@ void LidarOdometry::match(FrameResult& result) {
     result.message = enough ? "" : "the scan shows too few surfaces to begin with";
     return;
   }
-  const AlignResult aligned = align();
+  const AlignResult aligned = align(normals);
   result.residuals = aligned.counts.valid;
   result.residual_rms = aligned.rms_distance;
   result.degenerate_directions = aligned.degenerate_directions;
@@ -105,7 +101,7 @@ void LidarOdometry::match(FrameResult& result) {
 }
 
 // From the prediction; when that does not convince, from coarse starts, first near ones.
-AlignResult LidarOdometry::align() {
+AlignResult LidarOdometry::align(const Normals& normals) {
   AlignResult best;
   const auto convinced_by = [&](const std::vector<Pose>& starts) {
     for (const Pose& start : starts) {
@@ -122,8 +118,8 @@ AlignResult LidarOdometry::align() {
   const Pose predicted = predicted_.T_world_lidar();
   const Pose standing_still = motion_->last().pose * options_.T_body_lidar;
   const std::vector<Pose> near = {predicted, standing_still};
-  if (!convinced_by({predicted}) && !convinced_by(search_.search(scan_.points, normals_, near))) {
-    convinced_by(search_.search(scan_.points, normals_, search_.turned(near)));
+  if (!convinced_by({predicted}) && !convinced_by(search_.search(scan_.points, normals, near))) {
+    convinced_by(search_.search(scan_.points, normals, search_.turned(near)));
   }
   return best;
 }
@@ -140,7 +136,7 @@ bool LidarOdometry::convinces(const AlignResult& result, const Pose& start) cons
          sum_sq_motions <= max_motion * max_motion * static_cast<double>(key_points_.size());
 }
 
-void LidarOdometry::insert(FrameResult& result) {
+void LidarOdometry::insert(const Normals& normals, FrameResult& result) {
   const Pose T_map_body = result.T_map_lidar * options_.T_body_lidar.inverse();
   result.T_map_body = T_map_body;
   if (result.status != FrameStatus::kTracking) {
@@ -153,8 +149,8 @@ void LidarOdometry::insert(FrameResult& result) {
   } else {
     motion_.emplace(pose);
   }
-  result.inserted = map_->insert(scan_.points, normals_, result.T_map_lidar);
-  search_.insert(scan_.points, normals_, result.T_map_lidar);
+  result.inserted = map_->insert(scan_.points, normals, result.T_map_lidar);
+  search_.insert(scan_.points, normals, result.T_map_lidar);
 }
 
 void LidarOdometryOptions::validate() const {
@@ -168,11 +164,6 @@ void LidarOdometryOptions::validate() const {
       "min_confident_share",
       min_confident_share,
       "0 to 1");
-  require(
-      max_plane_offset >= 0.0 && std::isfinite(max_plane_offset),
-      "max_plane_offset",
-      max_plane_offset,
-      "0 or more [m]");
   require(max_confident_motion > 0.0, "max_confident_motion", max_confident_motion, "positive [m]");
   require(
       min_inlier_share >= 0.0 && min_inlier_share <= 1.0,

@@ -33,13 +33,15 @@ class LidarOdometry final : public Pipeline {
   const LioMap& map() const override { return *map_; }
 
  private:
+  using Normals = std::vector<Eigen::Vector3f>;
+
   bool is_usable(const Scan& scan, FrameResult& result) const;
   void predict(const Scan& scan);
-  void prepare(const Scan& scan, FrameResult& result);
-  void match(FrameResult& result);
-  AlignResult align();
+  const Normals& prepare(const Scan& scan, FrameResult& result);
+  void match(const Normals& normals, FrameResult& result);
+  AlignResult align(const Normals& normals);
   bool convinces(const AlignResult& result, const Pose& start) const;
-  void insert(FrameResult& result);
+  void insert(const Normals& normals, FrameResult& result);
 
   LidarOdometryOptions options_;
   Executor executor_;
@@ -53,7 +55,6 @@ class LidarOdometry final : public Pipeline {
   // Kept for their memory.
   std::vector<MotionSegment> segments_;
   DeskewedScan scan_;
-  std::vector<Eigen::Vector3f> normals_;
   std::vector<Eigen::Vector3f> key_points_, key_normals_;
 };
 

@@ -15,7 +15,6 @@ namespace nvm::lio {
 struct LidarOdometryOptions {
   RangeLimits range;
   NormalOptions normals;
-  double max_plane_offset = 0.05;  ///< see InertialOptions
   KeypointOptions keypoints;
   AlignOptions align;
   StartSearchOptions search;

@@ -21,8 +21,7 @@ std::unique_ptr<ScanMatcher> make_matcher(
     case PipelineType::kCtLioContinuous:
       return std::make_unique<ContinuousMatcher>(options.align, options.observation, executor);
     default:
-      return std::make_unique<FilterMatcher>(
-          options.measurement, options.iteration, options.align, executor);
+      return std::make_unique<FilterMatcher>(options.measurement, options.iteration, executor);
   }
 }
 
@@ -31,11 +30,9 @@ LidarOdometryOptions lidar_only_options(const PipelineOptions& options) {
   const InertialOptions& shared = options.inertial;
   lidar_only.range = shared.range;
   lidar_only.normals = shared.normals;
-  lidar_only.max_plane_offset = shared.max_plane_offset;
   lidar_only.keypoints = shared.keypoints;
   lidar_only.min_inlier_share = shared.min_inlier_share;
   lidar_only.T_body_lidar = shared.T_imu_lidar;
-  lidar_only.align = options.align;
   return lidar_only;
 }
 
@@ -47,12 +44,13 @@ PipelineOptions::PipelineOptions() {
   inertial.normals.min_range = inertial.range.min_range;
   inertial.normals.max_range = inertial.range.max_range;
   inertial.normals.max_linearity = 0.95;
-  align.association.neighbors = 8;
-  align.association.max_neighbor_distance = 0.6;
-  align.kernel.scale = 0.02;
   align.max_iterations = 10;
   align.converged_translation = 2e-4;
   align.converged_rotation = 5e-5;
+  lidar_only.align = align;  // without an IMU predictions are farther off
+  align.association.neighbors = 8;
+  align.association.max_neighbor_distance = 0.6;
+  align.kernel.scale = 0.02;
 }
 
 PipelineType resolve(PipelineType type, bool has_imu) {

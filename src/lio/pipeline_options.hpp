@@ -34,10 +34,9 @@ struct PipelineOptions {
   InertialOptions inertial;
   MeasurementOptions measurement;  ///< fast_lio
   IterationOptions iteration;      ///< fast_lio
-  AlignOptions align;              ///< ct_lio, and fast_lio after a gap
+  AlignOptions align;              ///< ct_lio
   PoseObservation observation;     ///< ct_lio
-  /// Its own part only: what it shares with the inertial pipelines comes from `inertial` and
-  /// `align`.
+  /// Its own part only: what it shares with the inertial pipelines comes from `inertial`.
   LidarOdometryOptions lidar_only;
 
   PipelineOptions();

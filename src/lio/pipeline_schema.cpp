@@ -129,23 +129,28 @@ void bind_filter(Schema& schema, PipelineOptions& options) {
   schema.add("converged_rotation", iteration.max_converged_rotation, kPositive, "[rad]");
 }
 
-void bind_optimization(Schema& schema, PipelineOptions& options) {
-  AssociationOptions& association = options.align.association;
+void bind_align(Schema& schema, AlignOptions& align) {
+  AssociationOptions& association = align.association;
   schema.add("neighbors", association.neighbors, {3.0, 64.0}, "Of a point, at most");
   schema.add("min_neighbors", association.min_neighbors, {3.0, 64.0}, "Of a point, at least");
   schema.add("max_neighbor_distance", association.max_neighbor_distance, kPositive, "[m]");
   schema.add("max_plane_distance", association.max_plane_distance, kPositive, "[m]");
   schema.add("planarity_share", association.planarity_share, kShare, "Of the weight (alpha)");
-  schema.add("kernel_scale", options.align.kernel.scale, kPositive, "Of the robust loss [m]");
-  schema.add("max_iterations", options.align.max_iterations, {1.0, 1000.0}, "Of a scan");
-  schema.add("min_residuals", options.align.min_residuals, {6.0, 1e6}, "Of a scan");
-  schema.add("min_observability", options.align.min_observability, kShare, "Of a direction");
+  schema.add("kernel_scale", align.kernel.scale, kPositive, "Of the robust loss [m]");
+  schema.add("max_iterations", align.max_iterations, {1.0, 1000.0}, "Of a scan");
+  schema.add("min_residuals", align.min_residuals, {6.0, 1e6}, "Of a scan");
+  schema.add("min_observability", align.min_observability, kShare, "Of a direction");
+}
+
+void bind_optimization(Schema& schema, PipelineOptions& options) {
+  bind_align(schema, options.align);
   PoseObservation& observation = options.observation;
   schema.add("translation_deviation", observation.translation_deviation, kPositive, "[m]");
   schema.add("rotation_deviation", observation.rotation_deviation, kPositive, "[rad]");
 }
 
 void bind_lidar_only(Schema& schema, LidarOdometryOptions& lidar_only) {
+  bind_align(schema, lidar_only.align);
   schema.add(
       "min_confident_share",
       lidar_only.min_confident_share,

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include "lio/plane_projection.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "nvm/normal/normal_estimator.hpp"
+#include "support/rng.hpp"
+
+namespace nvm::lio {
+namespace {
+
+constexpr double kNoise = 0.01;
+
+// A wall of 2 x 2 m across the x axis, 2 m away.
+DeskewedScan wall(std::mt19937_64& rng) {
+  std::uniform_real_distribution<float> place(-1.0F, 1.0F);
+  std::normal_distribution<float> noise(0.0F, static_cast<float>(kNoise));
+  DeskewedScan scan;
+  for (int i = 0; i < 4000; ++i) {
+    scan.points.emplace_back(2.0F + noise(rng), place(rng), place(rng));
+    scan.viewpoints.emplace_back(Eigen::Vector3f::Zero());
+    scan.ages.push_back(0.0F);
+  }
+  return scan;
+}
+
+double deviation(const DeskewedScan& scan) {
+  double sum = 0.0;
+  for (const Eigen::Vector3f& point : scan.points) {
+    sum += std::pow(static_cast<double>(point.x()) - 2.0, 2);
+  }
+  return std::sqrt(sum / static_cast<double>(scan.size()));
+}
+
+class PlaneProjection : public ::testing::TestWithParam<NormalMethod> {
+ protected:
+  NormalEstimator estimator() const {
+    NormalOptions options;
+    options.min_radius = options.max_radius = 0.3;
+    options.method = GetParam();
+    return NormalEstimator(options);
+  }
+};
+
+TEST_P(PlaneProjection, TakesMostOfTheNoiseOffAWall) {
+  auto rng = test::rng();
+  DeskewedScan scan = wall(rng);
+  NormalEstimator normals = estimator();
+  project_to_planes(normals.estimate(scan.points, scan.viewpoints), 0.05, scan);
+  EXPECT_LT(deviation(scan), 0.25 * kNoise);
+}
+
+TEST_P(PlaneProjection, LeavesPointsFarFromTheirPlaneAndTakesTheirNormal) {
+  auto rng = test::rng();
+  DeskewedScan scan = wall(rng);
+  scan.points[0] = {1.9F, 0.0F, 0.0F};
+  NormalEstimator normals = estimator();
+  const auto kept = project_to_planes(normals.estimate(scan.points, scan.viewpoints), 0.05, scan);
+  EXPECT_EQ(scan.points[0], Eigen::Vector3f(1.9F, 0.0F, 0.0F));
+  EXPECT_TRUE(kept[0].isZero());
+  EXPECT_FALSE(kept[1].isZero());
+}
+
+TEST_P(PlaneProjection, TrustsNoSideThatABeamGrazes) {
+  auto rng = test::rng();
+  DeskewedScan scan = wall(rng);
+  for (Eigen::Vector3f& viewpoint : scan.viewpoints) {
+    viewpoint = {1.9F, 30.0F, 0.0F};
+  }
+  NormalEstimator normals = estimator();
+  for (const Eigen::Vector3f& normal :
+       project_to_planes(normals.estimate(scan.points, scan.viewpoints), 0.05, scan)) {
+    EXPECT_TRUE(normal.isZero());
+  }
+}
+
+TEST_P(PlaneProjection, IsOffWithoutAnOffset) {
+  auto rng = test::rng();
+  DeskewedScan scan = wall(rng);
+  const std::vector<Eigen::Vector3f> before = scan.points;
+  NormalEstimator normals = estimator();
+  const NormalResult& estimated = normals.estimate(scan.points, scan.viewpoints);
+  EXPECT_EQ(project_to_planes(estimated, 0.0, scan), estimated.normals);
+  EXPECT_EQ(scan.points, before);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Methods,
+    PlaneProjection,
+    ::testing::Values(NormalMethod::kBlockTree, NormalMethod::kKdTree, NormalMethod::kPerCell));
+
+}  // namespace
+}  // namespace nvm::lio
