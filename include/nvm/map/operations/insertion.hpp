@@ -77,7 +77,7 @@ class Insertion {
       return;
     }
     for (std::size_t i = 0; i < unknown; ++i) {
-      storage_.prefetch_brick(voxels[i]);
+      storage_.prefetch_slot(voxels[i]);
     }
     for (std::size_t i = 0; i < unknown; ++i) {
       places[i] = storage_.prefetch_head(voxels[i]);

@@ -19,6 +19,7 @@ class VoxelQueryContext {
   std::uint32_t find_brick(const VoxelStorage& storage, IndexKey key) noexcept {
     if (!storage.is_brick(brick_, key)) {
       brick_ = storage.find_brick(key);
+      storage.prefetch_brick(brick_);
     }
     return brick_;
   }

@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "nvm/core/assert.hpp"
-#include "nvm/map/storage/huge_pages.hpp"
 
 namespace nvm::detail {
 
@@ -37,7 +36,6 @@ RawArray<T> allocate_uninitialized(std::size_t count) {
   if (memory == nullptr) {
     throw std::bad_alloc();
   }
-  prefer_huge_pages(memory, bytes);
   return RawArray<T>(static_cast<T*>(memory));
 }
 
@@ -49,7 +47,6 @@ RawArray<T> allocate_zeroed(std::size_t count) {
   if (memory == nullptr) {
     throw std::bad_alloc();
   }
-  prefer_huge_pages(memory, count * sizeof(T));
   return RawArray<T>(static_cast<T*>(memory));
 }
 

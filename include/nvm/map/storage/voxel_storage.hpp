@@ -46,6 +46,12 @@ class VoxelStorage : public SurfaceStorage {
     return brick < brick_ids_.high_water() && bricks_[brick].key == key;
   }
   const Brick* bricks() const noexcept { return bricks_.get(); }
+  /// Starts to load the whole of a brick (or none).
+  [[gnu::always_inline]] void prefetch_brick(std::uint32_t id) const noexcept {
+    for (std::size_t line = 0; line < sizeof(Brick) && id != kNone; line += 64) {
+      __builtin_prefetch(reinterpret_cast<const char*>(&bricks_[id]) + line);
+    }
+  }
   const Brick& brick(std::uint32_t id) const noexcept { return bricks_[id]; }
 
   /// Head chunk of the voxel's front surface, or kNone when there is no such voxel.
@@ -60,7 +66,7 @@ class VoxelStorage : public SurfaceStorage {
   // nothing. Each step reads what the one before has loaded, so that a caller who takes each step
   // for many voxels before the next waits once for all of them.
 
-  [[gnu::always_inline]] void prefetch_brick(const VoxelIndex& voxel) const noexcept {
+  [[gnu::always_inline]] void prefetch_slot(const VoxelIndex& voxel) const noexcept {
     table_.prefetch(index_key(brick_index(voxel)));
   }
   /// The brick of `voxel`, or kNone.
