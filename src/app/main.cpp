@@ -22,9 +22,7 @@ std::string failure_message(const CLI::App*, const CLI::Error& error) {
   return fmt::format("nvm: {} (see nvm --help)\n", error.what());
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   CLI::App app("Two-sided, normal-aware mapping and odometry with LiDAR");
   app.name("nvm");
   app.set_version_flag(
@@ -45,11 +43,19 @@ int main(int argc, char** argv) {
     }
   } catch (const CLI::ParseError& error) {
     return app.exit(error);
+  }
+  return EXIT_SUCCESS;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
   } catch (const std::exception& error) {
     const std::string message = error.what();
     const char* prefix = message.rfind("nvm: ", 0) == 0 ? "" : "nvm: ";
     fmt::print(stderr, "{}{}\n", prefix, message);
     return EXIT_FAILURE;
   }
-  return EXIT_SUCCESS;
 }
