@@ -12,6 +12,7 @@
 #include "adapters/reference_search.hpp"
 #include "support/random_cloud.hpp"
 #include "support/rng.hpp"
+#include "support/thread_sanitizer.hpp"
 
 namespace nvm {
 namespace {
@@ -59,6 +60,7 @@ class CubeReference {
 };
 
 TEST(IkdTree, ServesTheCallsOfFastLio) {
+  NVM_SKIP_UNDER_THREAD_SANITIZER("libgomp");
   std::mt19937_64 rng = test::rng();
   const PointVector scan = test::host_points(test::uniform_cloud(2000, 3.0, {0, 0, 0}, rng).points);
   std::vector<BoxPointType> boxes;

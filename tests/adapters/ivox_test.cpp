@@ -15,6 +15,7 @@
 #include "adapters/reference_search.hpp"
 #include "support/random_cloud.hpp"
 #include "support/rng.hpp"
+#include "support/thread_sanitizer.hpp"
 
 namespace faster_lio {
 namespace {
@@ -61,6 +62,7 @@ class Host {
 };
 
 TEST(IVox, TransparentFindsWhatIVoxDoes) {
+  NVM_SKIP_UNDER_THREAD_SANITIZER("the standard library's parallel algorithms");
   std::mt19937_64 rng = test::rng();
   const test::Cloud cloud = test::uniform_cloud(3000, 3.0, {0, 0, 0}, rng);
   const std::vector<Eigen::Vector3d> queries = test::uniform_cloud(200, 3.2, {0, 0, 0}, rng).points;
@@ -99,6 +101,7 @@ TEST(IVox, TransparentFindsWhatIVoxDoes) {
 }
 
 TEST(IVox, NormalsKeepTheSidesOfAWallApart) {
+  NVM_SKIP_UNDER_THREAD_SANITIZER("the standard library's parallel algorithms");
   std::mt19937_64 rng = test::rng();
   const test::Cloud wall = test::thin_wall(3000, 0.05, rng);
   Host host(18);

@@ -13,6 +13,7 @@
 #include "adapters/pcl/normal_estimation.hpp"
 #include "support/random_cloud.hpp"
 #include "support/rng.hpp"
+#include "support/thread_sanitizer.hpp"
 
 namespace nvm {
 namespace {
@@ -47,6 +48,7 @@ Normals estimate(const Cloud::ConstPtr& cloud, const ::pcl::IndicesConstPtr& ind
 }
 
 TEST(PclNormals, AreThoseOfPcl) {
+  NVM_SKIP_UNDER_THREAD_SANITIZER("libgomp");
   std::mt19937_64 rng = test::rng();
   const Cloud::Ptr cloud = wall_cloud(rng);
   const Normals theirs =

@@ -17,6 +17,7 @@
 #include "nvm/core/executor_openmp.hpp"
 #include "nvm/core/executor_tbb.hpp"
 #include "support/rng.hpp"
+#include "support/thread_sanitizer.hpp"
 
 namespace nvm::test {
 namespace {
@@ -39,11 +40,9 @@ template <class Executor>
 class ExecutorLaws : public ::testing::Test {
  protected:
   void SetUp() override {
-#ifdef NVM_THREAD_SANITIZER
     if (std::is_same_v<Executor, OpenMpExecutor>) {
-      GTEST_SKIP() << "ThreadSanitizer does not see the synchronisation inside libgomp";
+      NVM_SKIP_UNDER_THREAD_SANITIZER("libgomp");
     }
-#endif
   }
 };
 using Executors = ::testing::Types<SerialExecutor, TbbExecutor, OpenMpExecutor>;
