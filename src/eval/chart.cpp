@@ -179,7 +179,7 @@ std::string Chart::svg() const {
   std::string svg = svg_open(layout_.width, layout_.height);
   svg += "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n";
   svg += x_axis() + y_axis();
-  svg += text(kLeft, 16.0, "font-size=\"13\" font-weight=\"bold\"", layout_.title);
+  svg += text(kLeft, 16.0, R"(font-size="13" font-weight="bold")", layout_.title);
   // A nested picture clips the series to the plotting area.
   svg += fmt::format(
       "<svg x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{3}\" viewBox=\"{0} {1} {2} {3}\" "

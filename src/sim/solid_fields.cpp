@@ -20,7 +20,7 @@ std::pair<Eigen::Vector3d, Eigen::Vector3d> read_corners(Fields& item, Eigen::In
   const Eigen::Vector3d min = item.point("min", 0.0);
   const Eigen::Vector3d max = item.point("max", 0.0);
   if ((max - min).head(axes).minCoeff() <= 0.0) {
-    item.fail("\"max\" must be greater than \"min\"");
+    item.fail(R"("max" must be greater than "min")");
   }
   return {min, max};
 }
@@ -107,7 +107,7 @@ std::vector<Box> read_wall(Fields& item) {
   const Eigen::Vector3d along = item.point("to", 0.0) - from;
   const double length = along.norm();
   if (length < kLength.min || from.z() != 0.0 || along.z() != 0.0) {
-    item.fail("\"from\" and \"to\" must be two different points [x, y]");
+    item.fail(R"("from" and "to" must be two different points [x, y])");
   }
   const double bottom = item.optional("bottom", 0.0);
   const double height = item.required<double>("height", kLength);
