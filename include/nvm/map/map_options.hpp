@@ -35,8 +35,8 @@ struct MapOptions {
   int points_per_surface = 20;
   /// Two points of one surface of a voxel are at least this far apart [m], 0 to 2 voxel_size.
   double min_point_distance = 0.1;
-  /// Whether that also holds between neighbouring voxels, for points whose normals agree. Without it
-  /// the few points that noise carries over a voxel's border are alone there, and stay: a wall
+  /// Whether that also holds between neighbouring voxels, for points whose normals agree. Without
+  /// it the few points that noise carries over a voxel's border are alone there, and stay: a wall
   /// grows thick where it runs along a border. Costs about 0.1 us per stored point.
   bool space_across_voxels = false;
   /// Surfaces in a voxel, 1 to 8: 2 for front and back, 1 for a map that does not tell sides apart.
