@@ -47,6 +47,7 @@ Eigen::Vector3d main_axis(const std::vector<OrientedPoint>& points) {
 double densest_offset(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& normal) {
   constexpr double kWindow = 0.03;  // [m]
   std::vector<double> offsets;
+  offsets.reserve(points.size());
   for (const Eigen::Vector3d& p : points) {
     offsets.push_back(normal.dot(p));
   }

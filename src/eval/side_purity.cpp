@@ -15,6 +15,7 @@ namespace {
 std::vector<double> distances(
     const std::vector<Eigen::Vector3d>& points, const OrientedPlane& plane) {
   std::vector<double> result;
+  result.reserve(points.size());
   for (const Eigen::Vector3d& p : points) {
     result.push_back(plane.distance(p));
   }
