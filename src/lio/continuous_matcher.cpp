@@ -76,7 +76,7 @@ ContinuousMatcher::Sums ContinuousMatcher::linearize(
   executor_.for_blocks(size, kBlock, [&](std::size_t begin, std::size_t end) {
     const std::size_t block = begin / kBlock;
     for (std::size_t i = begin; i < end; ++i) {
-      add_point(map, scan, scan.keypoints[i], T_world_lidar, contexts_[block], block_sums_[block]);
+      add_point(map, scan, scan.keypoints[i], T_world_lidar, block);
     }
   });
   Sums total;
@@ -93,8 +93,9 @@ void ContinuousMatcher::add_point(
     const PreparedScan& scan,
     std::uint32_t index,
     const Pose& T_world_lidar,
-    LioMap::QueryContext& context,
-    Sums& sums) const {
+    std::size_t block) {
+  LioMap::QueryContext& context = contexts_[block];
+  Sums& sums = block_sums_[block];
   const double begin_share =
       duration_ > 0.0F ? static_cast<double>(scan.scan.ages[index] / duration_) : 0.0;
   const PoseStep here =

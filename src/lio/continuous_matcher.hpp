@@ -38,13 +38,13 @@ class ContinuousMatcher final : public ScanMatcher {
   };
 
   Sums linearize(const LioMap& map, const PreparedScan& scan, const Pose& T_world_lidar);
+  /// Of the keypoint `index`, with the context and the sums of `block`.
   void add_point(
       const LioMap& map,
       const PreparedScan& scan,
       std::uint32_t index,
       const Pose& T_world_lidar,
-      LioMap::QueryContext& context,
-      Sums& sums) const;
+      std::size_t block);
   void add_ties(Sums& sums) const;
   void correct_points(const Pose& T_world_lidar, DeskewedScan& scan) const;
 

@@ -18,7 +18,7 @@ constexpr config::Range kShare{0.0, 1.0};
 std::vector<std::pair<Pose, std::string>> read_copies(Fields& item) {
   std::vector<std::pair<Pose, std::string>> copies{{Pose::Identity(), ""}};
   for (Fields& repeat : item.items("repeat")) {
-    const int count = repeat.required<int>("count", {1, 10000});
+    const auto count = repeat.required<int>("count", {1, 10000});
     const Eigen::Vector3d step = repeat.point("step", 0.0);
     repeat.finish();
     std::vector<std::pair<Pose, std::string>> more;
@@ -89,9 +89,10 @@ Material SceneReader::material_of(Fields& item) const {
 void SceneReader::add_solids(Fields& body, const Place& place) {
   const auto for_each = [&](const std::string& kind, const auto& add) {
     for (Fields& item : body.items(kind)) {
-      const std::string name = item.optional<std::string>("name", "");
+      const auto name = item.optional<std::string>("name", "");
+      const std::string prefix = place.prefix + name;
       for (const auto& [T_local_copy, suffix] : read_copies(item)) {
-        add(item, Place{place.T_world_local * T_local_copy, place.prefix + name + suffix});
+        add(item, Place{place.T_world_local * T_local_copy, prefix + suffix});
       }
       item.finish();
     }
@@ -131,7 +132,7 @@ void SceneReader::add_cylinder(Cylinder cylinder, Fields& item, const Place& pla
 }
 
 void SceneReader::add_mesh(Fields& item, const Place& place) {
-  const std::string file = item.required<std::string>("file");
+  const auto file = item.required<std::string>("file");
   const double scale = item.optional("scale", 1.0, {1e-6, 1e6});
   Mesh mesh = read_mesh(
       (std::filesystem::path(folder_) / file).string(),
@@ -157,7 +158,7 @@ void SceneReader::add_plate(
 
 void SceneReader::add_object(Fields& item, const Place& place) {
   constexpr int kMaxDepth = 8;  // objects of objects; more is taken for a circle
-  const std::string name = item.required<std::string>("object");
+  const auto name = item.required<std::string>("object");
   const auto object = objects_.find(name);
   if (object == objects_.end()) {
     item.fail("\"" + name + "\" is not one of the objects");

@@ -23,8 +23,10 @@ double triangle_wave(double phase) { return 4.0 * std::abs(phase - std::floor(ph
 Firing spinning(const SensorModel& sensor, std::size_t shot, double scan_rate) {
   const std::size_t lasers = sensor.elevations_deg.size();
   const std::size_t laser = shot % lasers;
-  const double columns = static_cast<double>(sensor.shots_per_scan(scan_rate) / lasers);
-  const double column_time = static_cast<double>(shot / lasers) / (columns * scan_rate);
+  const std::size_t column = shot / lasers;
+  const std::size_t columns = sensor.shots_per_scan(scan_rate) / lasers;
+  const double column_time =
+      static_cast<double>(column) / (static_cast<double>(columns) * scan_rate);
   Firing firing;
   firing.dt = column_time + static_cast<double>(laser) * sensor.laser_delay;
   firing.direction =
@@ -62,6 +64,7 @@ Eigen::Vector3d rosette(const SensorModel& sensor, double time, double line) {
 /// `count` elevations from `top_deg` down to -`top_deg`.
 std::vector<double> even_elevations(int count, double top_deg) {
   std::vector<double> elevations;
+  elevations.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
     elevations.push_back(top_deg - 2.0 * top_deg * i / (count - 1));
   }
@@ -147,14 +150,14 @@ Firing SensorModel::firing(std::size_t scan, std::size_t shot, double scan_rate)
 }
 
 const std::vector<SensorModel>& sensor_models() {
-  static const std::vector<SensorModel> kModels{
+  static const std::vector<SensorModel> models{
       mid360(),
       avia(),
       vlp16(),
       ouster("os0_32", 32, 45.0, 50.0),
       ouster("os0_128", 128, 45.0, 50.0),
       ouster("os1_64", 64, 22.5, 120.0)};
-  return kModels;
+  return models;
 }
 
 const SensorModel& find_sensor(const std::string& name) {

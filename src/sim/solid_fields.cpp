@@ -110,11 +110,11 @@ std::vector<Box> read_wall(Fields& item) {
     item.fail(R"("from" and "to" must be two different points [x, y])");
   }
   const double bottom = item.optional("bottom", 0.0);
-  const double height = item.required<double>("height", kLength);
+  const auto height = item.required<double>("height", kLength);
   std::vector<Rectangle> openings;
   for (Fields& opening : item.items("openings")) {
-    const double start = opening.required<double>("from", {0.0, length});
-    const double end = opening.required<double>("to", {start, length});
+    const auto start = opening.required<double>("from", {0.0, length});
+    const auto end = opening.required<double>("to", {start, length});
     const double sill = opening.optional("bottom", 0.0, {0.0, height});
     const double top = opening.optional("top", 2.05, {sill, height});
     opening.finish();
@@ -136,8 +136,8 @@ std::vector<Box> read_slab(Fields& item) {
     opening.finish();
     openings.push_back({low.x(), high.x(), low.y(), high.y()});
   }
-  const double thickness = item.required<double>("thickness", kLength);
-  const double middle = item.required<double>("top") - 0.5 * thickness;
+  const auto thickness = item.required<double>("thickness", kLength);
+  const auto middle = item.required<double>("top") - 0.5 * thickness;
   return plate_boxes(
       cut_openings({min.x(), max.x(), min.y(), max.y()}, openings),
       thickness,

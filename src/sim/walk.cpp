@@ -28,7 +28,7 @@ std::vector<Eigen::Vector3d> corners_of(const Route& route, double jitter, std::
       Random random(seed, Stream::kRoute, corners.size());
       const double dx = random.uniform(-jitter, jitter);
       const double dy = random.uniform(-jitter, jitter);
-      corners.push_back(waypoints[i] + Eigen::Vector3d(dx, dy, 0.0));
+      corners.emplace_back(waypoints[i] + Eigen::Vector3d(dx, dy, 0.0));
     }
   }
   return corners;
