@@ -128,6 +128,8 @@ class KdTreeLioMap final : public LioMap {
     return stats;
   }
 
+  // As in KdTreeMap: nanoflann throws only where no tree has been built.
+  // NOLINTNEXTLINE(bugprone-exception-escape)
   std::size_t nearest(
       const Eigen::Vector3d& point,
       const Eigen::Vector3f& normal,

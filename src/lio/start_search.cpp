@@ -61,6 +61,7 @@ std::vector<Pose> StartSearch::search(
     key_normals.push_back(normals[index]);
   }
   std::vector<AlignResult> found;
+  found.reserve(guesses.size());
   for (const Pose& guess : guesses) {
     found.push_back(aligner_.align(map_, key_points, key_normals, guess, executor_));
   }
@@ -68,6 +69,7 @@ std::vector<Pose> StartSearch::search(
     return a.cost < b.cost;
   });
   std::vector<Pose> poses;
+  poses.reserve(found.size());
   for (const AlignResult& result : found) {
     poses.push_back(result.T_map_scan);
   }
