@@ -43,7 +43,7 @@ std::optional<SceneText> find_file(const fs::path& path, const std::string& name
 
 config::Value parse_yaml(const SceneText& scene) {
   try {
-    return config::Value(YAML::Load(scene.text), "", scene.source);
+    return {YAML::Load(scene.text), "", scene.source};
   } catch (const YAML::Exception& error) {
     throw std::invalid_argument(
         scene.source + ":" + std::to_string(error.mark.line + 1) + ": " + error.msg);
