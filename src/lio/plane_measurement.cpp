@@ -45,7 +45,7 @@ void PlaneMeasurement::start(
 }
 
 Eigen::Vector3d PlaneMeasurement::world_point(const NavState& state, const PlaneResidual& r) const {
-  const double age = static_cast<double>(r.age);
+  const auto age = static_cast<double>(r.age);
   const Eigen::Vector3d q = state.T_body_lidar * r.p_lidar;
   const Eigen::Vector3d unturned = q + age * (state.gyro_bias - predicted_.gyro_bias).cross(q);
   // The scan was sheared by the predicted velocity as seen from the predicted attitude.
@@ -137,7 +137,7 @@ void PlaneMeasurement::add_block(
       continue;
     }
     r.distance = r.plane_normal.dot(world_point(state, r)) - r.plane_offset;
-    const double age = static_cast<double>(r.age);
+    const auto age = static_cast<double>(r.age);
     const Eigen::Vector3d n_body = R.transpose() * r.plane_normal;
     const Eigen::Vector3d n_lidar = state.T_body_lidar.linear().transpose() * n_body;
     const Eigen::Vector3d q = state.T_body_lidar * r.p_lidar;
