@@ -73,7 +73,8 @@ class Insertion {
       voxels[unknown] = block.voxel(i);
       unknown += static_cast<std::size_t>(cache_.at(voxels[unknown]).key != block.key(i));
     }
-    if (unknown < 8) {
+    constexpr std::size_t kWorthwhile = 8;  // fewer wait for less than looking ahead takes
+    if (unknown < kWorthwhile) {
       return;
     }
     for (std::size_t i = 0; i < unknown; ++i) {
