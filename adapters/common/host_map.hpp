@@ -4,18 +4,15 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <limits>
 #include <memory>
-#include <utility>
 #include <vector>
 
 #include "adapters/common/host_options.hpp"
+#include "adapters/common/normal_finder.hpp"
 #include "adapters/common/point_fields.hpp"
 #include "adapters/common/wide_search.hpp"
 #include "nvm/core/point_access.hpp"
-#include "nvm/map/view_direction.hpp"
 #include "nvm/map/voxel_map.hpp"
 
 namespace nvm::adapters {
@@ -28,7 +25,7 @@ namespace nvm::adapters {
 class HostMap {
  public:
   HostMap() = default;
-  explicit HostMap(const HostOptions& options) : options_(options) {}
+  explicit HostMap(const HostOptions& options) : options_(options), normals_(options.normals) {}
 
   /// What the map has been, or will be, made with.
   const HostOptions& options() const noexcept { return options_; }
@@ -37,16 +34,21 @@ class HostMap {
   void configure(const HostOptions& options) {
     options.map.validate();
     options_ = options;
+    normals_.set_policy(options.normals);
     map_.reset();
   }
   /// Where the sensor is [m], map frame, from now on. Not finite, as at the start: unknown.
-  void set_view_point(const Eigen::Vector3d& p_map_sensor) noexcept { view_point_ = p_map_sensor; }
+  void set_view_point(const Eigen::Vector3d& p_map_sensor) noexcept {
+    normals_.set_view_point(p_map_sensor);
+  }
+  /// The normals that points are inserted with and that queries go by.
+  const NormalFinder& normals() const noexcept { return normals_; }
 
   /// Inserts points that are in the map frame. Throws std::invalid_argument when the options are
   /// out of range, std::bad_alloc when there is no memory for them.
   template <class Points>
   InsertStats insert(const Points& points) {
-    return insert(points, HostNormals<Points>{*this, points});
+    return insert(points, normals_.insert_normals(points));
   }
 
   /// The same with normals of their own, a range as long as `points`. Those that are not unit
@@ -69,7 +71,7 @@ class HostMap {
   template <class Point>
   std::size_t nearest(
       const Point& point, const NearestSearch& search, Neighbor* out) const noexcept {
-    return nearest(nvm::position(point), query_normal(point), search, out);
+    return nearest(nvm::position(point), normals_.query_normal(point), search, out);
   }
 
   /// The same with a `normal` in the map frame; one that is not a unit vector stands for none, and
@@ -79,35 +81,16 @@ class HostMap {
       const Eigen::Vector3f& normal,
       const NearestSearch& search,
       Neighbor* out) const noexcept {
-    if (!map_) {
-      return 0;
-    }
     const bool gated = is_unit_normal(normal);
-    if (!gated && options_.normals.query != NormalSource::kNone &&
-        options_.normals.missing == MissingNormal::kDrop) {
+    if (!map_ || (!gated && refuses_queries_without_normal())) {
       return 0;
     }
     const std::size_t count = nearest_within_reach(
-        *map_,
-        to_grid(point),
-        gated ? normal : Eigen::Vector3f(Eigen::Vector3f::Zero()),
-        {search, options_.reach},
-        out);
+        *map_, to_grid(point), gated ? &normal : nullptr, {search, options_.reach}, out);
     if (options_.grid_offset != 0.0) {
       std::for_each(out, out + count, [this](Neighbor& n) { n.position = from_grid(n.position); });
     }
     return count;
-  }
-
-  /// The normal that a query with this point goes by; zero when it has none.
-  template <class Point>
-  Eigen::Vector3f query_normal(const Point& point) const noexcept {
-    return normal_of(point, options_.normals.query);
-  }
-  /// The normal that this point is inserted with; zero when it has none.
-  template <class Point>
-  Eigen::Vector3f insert_normal(const Point& point) const noexcept {
-    return normal_of(point, options_.normals.insert);
   }
 
   /// The map, in its grid's frame (shifted by grid_offset), or null before the first insertion.
@@ -138,27 +121,9 @@ class HostMap {
   }
 
  private:
-  /// The normals of a host's points, computed when read.
-  template <class Points>
-  struct HostNormals {
-    const HostMap& host;
-    const Points& points;
-    std::size_t size() const { return static_cast<std::size_t>(points.size()); }
-    Eigen::Vector3f operator[](std::size_t i) const { return host.insert_normal(points[i]); }
-  };
-
-  template <class Point>
-  Eigen::Vector3f normal_of(const Point& point, NormalSource source) const noexcept {
-    if (source == NormalSource::kNone) {
-      return Eigen::Vector3f::Zero();
-    }
-    if (source == NormalSource::kPoint) {
-      const Eigen::Vector3f normal = normal_field(point);
-      if (is_unit_normal(normal) || options_.normals.missing != MissingNormal::kViewDirection) {
-        return normal;
-      }
-    }
-    return view_direction(point, view_point_);
+  bool refuses_queries_without_normal() const noexcept {
+    return options_.normals.missing == MissingNormal::kDrop &&
+           options_.normals.query != NormalSource::kNone;
   }
 
   VoxelMap& make_map() {
@@ -197,17 +162,17 @@ class HostMap {
   }
 
   InsertStats evict(InsertStats stats) {
-    if (options_.map.eviction == Eviction::kRadius && view_point_.allFinite()) {
+    if (options_.map.eviction == Eviction::kRadius && normals_.view_point().allFinite()) {
       const std::size_t voxels = map_->voxel_count();
       stats.evicted_points +=
-          map_->erase_voxels_beyond(to_grid(view_point_), options_.map.eviction_radius);
+          map_->erase_voxels_beyond(to_grid(normals_.view_point()), options_.map.eviction_radius);
       stats.evicted_voxels += voxels - map_->voxel_count();
     }
     return stats;
   }
 
   HostOptions options_;
-  Eigen::Vector3d view_point_ = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  NormalFinder normals_;
   std::unique_ptr<VoxelMap> map_;
 };
 

@@ -3,8 +3,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <type_traits>
 #include <utility>
+
+#include "nvm/map/neighbor.hpp"
 
 namespace nvm::adapters {
 
@@ -45,14 +48,32 @@ Eigen::Vector3f normal_field(const Point& point) noexcept {
   }
 }
 
+template <class Point>
+void set_position(Point& point, const Eigen::Vector3d& position) {
+  point.x = static_cast<decltype(point.x)>(position.x());
+  point.y = static_cast<decltype(point.y)>(position.y());
+  point.z = static_cast<decltype(point.z)>(position.z());
+}
+
 /// A host's point at `position` [m]; its other fields are as a new point has them.
 template <class Point>
 Point make_point(const Eigen::Vector3d& position) {
   Point point{};
-  point.x = static_cast<decltype(point.x)>(position.x());
-  point.y = static_cast<decltype(point.y)>(position.y());
-  point.z = static_cast<decltype(point.z)>(position.z());
+  set_position(point, position);
   return point;
+}
+
+/// Replaces the contents of `points`, a vector of a host's points, by `count` new ones at the
+/// positions of `found`. They are made where they stay: to copy points whose parts have just been
+/// written stalls the processor.
+template <class PointVector>
+void write_positions(const Neighbor* found, std::size_t count, PointVector& points) {
+  points.resize(count);
+  auto* to = points.data();
+  for (const Neighbor* from = found; from != found + count; ++from, ++to) {
+    *to = typename PointVector::value_type{};
+    set_position(*to, from->position);
+  }
 }
 
 /// Sets the normal fields of `point`; nothing when it has none.

@@ -84,33 +84,33 @@ struct ReachingSearch {
 };
 
 /// VoxelMap::nearest, and when the 27 voxels do not settle the answer within
-/// reaching.nearest.max_distance, nearest_wide to at most reaching.reach. A zero `normal` sees both
-/// sides. Beyond the 27 voxels only the normals of points are compared, not those of surfaces.
+/// reaching.nearest.max_distance, nearest_wide to at most reaching.reach. `normal` is a unit
+/// vector, or null to see both sides. Beyond the 27 voxels only the normals of points are compared,
+/// not those of surfaces.
 inline std::size_t nearest_within_reach(
     const VoxelMap& map,
     const Eigen::Vector3d& point,
-    const Eigen::Vector3f& normal,
+    const Eigen::Vector3f* normal,
     const ReachingSearch& reaching,
     Neighbor* out) {
   const auto& [search, reach] = reaching;
   thread_local VoxelMap::QueryContext context;
-  const bool gated = !normal.isZero(0.0F);
-  const std::size_t count = gated ? map.nearest(point, normal, search, out, context)
-                                  : map.nearest(point, search, out, context);
-  const double covered = reach > 0.0 ? covered_distance(point, map.options().voxel_size) : 0.0;
+  const std::size_t count = normal != nullptr ? map.nearest(point, *normal, search, out, context)
+                                              : map.nearest(point, search, out, context);
+  if (reach <= 0.0) {
+    return count;
+  }
+  const double covered = covered_distance(point, map.options().voxel_size);
   if (std::min(reach, search.max_distance) <= covered ||
       (count == search.count && out[count - 1].sq_distance <= covered * covered)) {
     return count;
   }
   const auto min_dot = static_cast<float>(std::cos(map.options().max_point_angle));
-  NearestSearch wide = search;
-  wide.max_distance = std::min(search.max_distance, reach);
-  return nearest_wide(
-      map,
-      point,
-      wide,
-      [&](const Neighbor& n) { return !gated || map.normal(n.id).dot(normal) > min_dot; },
-      out);
+  const auto agrees = [&](const Neighbor& n) {
+    return normal == nullptr || map.normal(n.id).dot(*normal) > min_dot;
+  };
+  const NearestSearch wide{search.count, std::min(search.max_distance, reach), search.gate};
+  return nearest_wide(map, point, wide, agrees, out);
 }
 
 }  // namespace nvm::adapters

@@ -78,7 +78,7 @@ class CtLioMap {
   }
   /// The same along the direction to the view point.
   Points search(const Eigen::Vector3d& point, int count, int ring = 1) const {
-    return search(point, map_.query_normal(point).cast<double>(), count, ring);
+    return search(point, map_.normals().query_normal(point).cast<double>(), count, ring);
   }
 
   /// Adds all points of a scan at once; points and normals are ranges of equal length, map frame.

@@ -25,7 +25,7 @@ bool insert_nearest_to_center(HostMap& host, const Point& point, double cube) {
   const Eigen::Vector3d low = (position / cube).array().floor() * cube;
   const Eigen::Vector3d center = low.array() + 0.5 * cube;
   const double sq_distance = (position - center).squaredNorm();
-  const Eigen::Vector3f normal = host.insert_normal(point);
+  const Eigen::Vector3f normal = host.normals().insert_normal(point);
   constexpr double kHalfDiagonal = 0.867;
   bool stays = true;
   std::size_t replaced = 0;

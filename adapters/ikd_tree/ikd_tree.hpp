@@ -104,10 +104,9 @@ class IkdTree {
     const auto wanted = static_cast<std::size_t>(std::clamp<int>(k, 0, kMaxNeighbors));
     const std::size_t count =
         map_.nearest(point, {wanted, max_distance, Gate::kSurfaces}, found.data());
-    points.resize(count);
+    write_positions(found.data(), count, points);
     sq_distances.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
-      points[i] = make_point<Point>(found[i].position);
       sq_distances[i] = found[i].sq_distance;
     }
   }

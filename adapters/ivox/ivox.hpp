@@ -94,10 +94,7 @@ class IVox {
     const nvm::NearestSearch search{wanted, max_range, nvm::Gate::kSurfaces};
     const std::size_t count = looks_everywhere() ? map_.nearest(point, search, found.data())
                                                  : search_nearby(point, search, found.data());
-    closest.resize(count);
-    for (std::size_t i = 0; i < count; ++i) {
-      closest[i] = nvm::adapters::make_point<PointType>(found[i].position);
-    }
+    nvm::adapters::write_positions(found.data(), count, closest);
     return count > 0;
   }
 

@@ -113,7 +113,7 @@ class KissMap {
   /// The nearest stored point in the 27 voxels around `query`, and its distance [m]; zero and the
   /// largest double when there is none, as the host has it.
   std::tuple<Eigen::Vector3d, double> GetClosestNeighbor(const Eigen::Vector3d& query) const {
-    return closest(query, map_.query_normal(query));
+    return closest(query, map_.normals().query_normal(query));
   }
 
  private:
@@ -124,7 +124,7 @@ class KissMap {
     if (map_.nearest(query, normal, kAny, found.data()) == 0) {
       return {Eigen::Vector3d::Zero(), std::numeric_limits<double>::max()};
     }
-    return {found[0].position, (found[0].position - query).norm()};
+    return {found[0].position, std::sqrt(static_cast<double>(found[0].sq_distance))};
   }
 
   double max_distance_;

@@ -71,7 +71,7 @@ class MapSearch : public ::pcl::search::Search<PointT> {
     const std::size_t count = nearest_within_reach(
         map_,
         position(point),
-        Eigen::Vector3f::Zero(),
+        nullptr,
         {{wanted, kEverywhere, Gate::kSurfaces}, kEverywhere},
         found.data());
     return copy({found.begin(), found.begin() + count}, indices, sq_distances);

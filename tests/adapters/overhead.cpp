@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
 
-// overhead WORK: one kind of work, for measure_overhead.py to count the instructions of. Each
-// adapter's work has its counterpart with the map's own calls.
+// overhead WORK [ungated]: one kind of work, for measure_overhead.py to count the instructions of.
+// Each adapter's work has its counterpart with the map's own calls. `ungated`: without normals.
+// overhead time [ungated]: the times of all queries in turn, in ns per query; the 10 % quantile of
+// many rounds, which is what they take when nothing disturbs them.
+#include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdio>
 #include <functional>
 #include <map>
 #include <random>
 #include <string>
+#include <vector>
 
 #include "adapters/ct_lio/ct_lio_map.hpp"
 #include "adapters/host_point.hpp"
@@ -29,6 +34,7 @@ constexpr double kVoxel = 0.3;
 
 /// The same points in the same map behind every adapter.
 struct World {
+  bool gated;
   test::Cloud cloud;
   test::HostPoints points;
   VoxelMap map{options().map};
@@ -37,9 +43,12 @@ struct World {
   adapters::KissMap<Pose> kiss{kVoxel, 100.0, 20};
   adapters::CtLioMap ct_lio{options()};
 
-  World() {
+  explicit World(bool with_normals) : gated(with_normals) {
     std::mt19937_64 rng(1);
     cloud = test::thin_wall(20000, 0.05, rng);
+    if (!gated) {
+      std::fill(cloud.normals.begin(), cloud.normals.end(), Eigen::Vector3f::Zero());
+    }
     points = test::host_points_with_normals(cloud);
     tree.options() = options();
     kiss.configure(options());
@@ -48,6 +57,7 @@ struct World {
     adapters::HostOptions options;
     options.map.voxel_size = kVoxel;
     options.map.min_point_distance = 0.1;
+    options.normals.missing = adapters::MissingNormal::kUngated;
     return options;
   }
   static IVox::Options ivox_options() {
@@ -57,7 +67,7 @@ struct World {
     return ivox;
   }
   void fill() {
-    map.insert(cloud.points, cloud.normals);
+    gated ? map.insert(cloud.points, cloud.normals) : map.insert_unsided(cloud.points);
     tree.Build(points);
     ivox.AddPoints(points);
     kiss.AddPoints(cloud.points, cloud.normals);
@@ -69,9 +79,12 @@ std::size_t query_core(const World& world, std::size_t k) {
   VoxelMap::QueryContext context;
   std::array<Neighbor, kMaxNeighbors> found;
   std::size_t count = 0;
+  const NearestSearch search{k, 1e6, Gate::kSurfaces};
   for (const test::HostPoint& p : world.points) {
-    count += world.map.nearest(
-        position(p), adapters::normal_field(p), {k, 1e6, Gate::kSurfaces}, found.data(), context);
+    count += world.gated
+                 ? world.map.nearest(
+                       position(p), adapters::normal_field(p), search, found.data(), context)
+                 : world.map.nearest(position(p), search, found.data(), context);
   }
   return count;
 }
@@ -175,19 +188,48 @@ const std::map<std::string, Work>& works() {
   return works;
 }
 
+bool is_query(const std::string& name) { return name.rfind("query", 0) == 0; }
+
+/// Interleaved, so that a change in the machine's speed meets all alike.
+void print_times(World& world) {
+  using Clock = std::chrono::steady_clock;
+  constexpr int kRounds = 50;
+  std::map<std::string, std::vector<double>> times;
+  for (int round = 0; round < kRounds; ++round) {
+    for (const auto& [name, work] : works()) {
+      if (is_query(name)) {
+        const Clock::time_point start = Clock::now();
+        work(world);
+        const std::chrono::duration<double, std::nano> taken = Clock::now() - start;
+        times[name].push_back(taken.count() / static_cast<double>(world.points.size()));
+      }
+    }
+  }
+  for (auto& [name, taken] : times) {
+    std::nth_element(taken.begin(), taken.begin() + kRounds / 10, taken.end());
+    std::printf("%s %.1f\n", name.c_str(), taken[kRounds / 10]);
+  }
+}
+
 }  // namespace
 }  // namespace nvm
 
 int main(int argc, char** argv) {
-  const std::string name = argc == 2 ? argv[1] : "";
+  const std::string name = argc > 1 ? argv[1] : "";
+  const bool gated = argc < 3 || std::string(argv[2]) != "ungated";
   const auto work = nvm::works().find(name);
-  if (work == nvm::works().end()) {
+  if (work == nvm::works().end() && name != "time") {
     std::fprintf(stderr, "overhead: no such work: '%s'\n", name.c_str());
     return 2;
   }
-  nvm::World world;
-  if (name.rfind("query", 0) == 0 || name == "filled") {
+  nvm::World world(gated);
+  if (nvm::is_query(name) || name == "filled" || name == "time") {
     world.fill();
   }
+  if (name == "time") {
+    nvm::print_times(world);
+    return 0;
+  }
   std::printf("%zu\n", work->second(world));
+  return 0;
 }
