@@ -13,7 +13,7 @@
 #include "nvm/map/storage/byte_stream.hpp"
 #include "nvm/map/storage/lanes.hpp"
 #include "nvm/map/storage/lattice.hpp"
-#include "nvm/map/storage/surface_moments.hpp"
+#include "nvm/map/storage/principal_direction.hpp"
 #include "support/random_cloud.hpp"
 #include "support/rng.hpp"
 
@@ -143,19 +143,17 @@ TEST(PrincipalDirection, IsTheDominantEigenvectorWithTheSignOfTheSum) {
   for (int round = 0; round < 20000; ++round) {
     const Eigen::Vector3f axis = test::random_unit(rng);
     const float scatter = 0.01F * static_cast<float>(rng() % 200);
-    SurfaceMoments moments;
+    NormalSums sums;
     Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    WideVector wide_sum{0, 0, 0};
     const std::size_t count = 1 + rng() % 120;
     for (std::size_t i = 0; i < count; ++i) {
       const StoredNormal normal =
           store_normal((axis + scatter * test::random_unit(rng)).normalized());
-      moments.add(normal);
+      sums.add(normal);
       const Eigen::Vector3d n(normal.x, normal.y, normal.z);
       matrix += n * n.transpose();
       sum += n;
-      wide_sum = {wide_sum.x + normal.x, wide_sum.y + normal.y, wide_sum.z + normal.z};
     }
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(matrix);
     Eigen::Vector3d expected = solver.eigenvectors().col(2);
@@ -166,14 +164,13 @@ TEST(PrincipalDirection, IsTheDominantEigenvectorWithTheSignOfTheSum) {
       continue;  // no distinct direction, or no sign
     }
     ++checked;
-    const Eigen::Vector3d direction =
-        load_normal(principal_direction(moments, wide_sum)).cast<double>();
+    const Eigen::Vector3d direction = load_normal(principal_direction(sums)).cast<double>();
     const double ratio = solver.eigenvalues()[1] / solver.eigenvalues()[2];
-    const double bound = 0.008 + 0.02 / (1.0 - ratio);  // rounding, and what the matrix may turn it
+    const double bound = 0.008 + 0.035 / (1.0 - ratio);  // rounding, and what a step may turn it
     ASSERT_GT(direction.dot(expected), std::cos(bound)) << solver.eigenvalues().transpose();
   }
   EXPECT_GT(checked, 15000);
-  EXPECT_EQ(principal_direction(SurfaceMoments{}, WideVector{}), StoredNormal{});
+  EXPECT_EQ(principal_direction(NormalSums{}), StoredNormal{});
 }
 
 TEST(StoredNormal, IsAccurateAndItsThresholdsAreCosines) {

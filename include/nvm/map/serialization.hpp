@@ -178,11 +178,14 @@ class MapArchive {
       const int surfaces = in.get<std::uint8_t>();
       check(
           surfaces >= 1 && surfaces <= map.options_.max_surfaces, "is corrupt: number of surfaces");
-      check(storage.find_voxel(index) == detail::kNone, "is corrupt: a voxel comes twice");
+      const std::uint32_t brick = storage.find_brick(detail::index_key(detail::brick_index(index)));
+      check(
+          storage.head_in(brick, detail::cell_in_brick(index)) == detail::kNone,
+          "is corrupt: a voxel comes twice");
       check(
           !storage.voxels_exhausted() && !storage.bricks_exhausted() && !storage.chunks_exhausted(),
           "is corrupt: it holds more than its limits allow");
-      std::uint32_t last_head = storage.restore_voxel(index, listed, stamp);
+      std::uint32_t last_head = storage.restore_voxel(index, brick, listed, stamp);
       check(last_head != detail::kNone, "is corrupt: impossible order of use");
       const std::uint32_t voxel = storage.chunk(last_head).voxel;
       read_surface(in, map, index, last_head);

@@ -2,7 +2,6 @@
 // Copyright (c) 2026 The nvm authors
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -10,6 +9,7 @@
 #include "nvm/map/insert_stats.hpp"
 #include "nvm/map/map_options.hpp"
 #include "nvm/map/operations/candidates.hpp"
+#include "nvm/map/operations/look_ahead.hpp"
 #include "nvm/map/operations/nearest_query.hpp"
 #include "nvm/map/operations/point_block.hpp"
 #include "nvm/map/storage/lanes.hpp"
@@ -34,6 +34,7 @@ class Insertion {
         gate_(gate),
         min_sq_steps_(lattice.sq_steps(options.min_point_distance)),
         storage_(storage),
+        chunks_(storage.chunks()),
         cache_(cache),
         number_(cache.begin_insertion()) {
     storage_.recency().begin_epoch();
@@ -41,11 +42,11 @@ class Insertion {
 
   /// Stores the first `count` points of the block; those without normal go to the front surface.
   void insert(const PointBlock& block, std::size_t count) {
-    prefetch(block, count);
+    look_ahead_.start(block, count, cache_, storage_);
     for (std::size_t i = 0; i < count; ++i) {
       switch (block.status(i)) {
         case PointBlock::Status::kOk:
-          insert(block.key(i), block.voxel(i), block.wrapped(i), block.normal(i));
+          insert_point(block, i);
           break;
         case PointBlock::Status::kNonFinite:
           ++stats_.non_finite;
@@ -63,80 +64,54 @@ class Insertion {
   InsertStats& stats() noexcept { return stats_; }
 
  private:
-  /// Starts to load the voxels of the block that the cache does not know: a point in an unvisited
-  /// place would otherwise wait for memory five times in a row.
-  [[gnu::always_inline]] void prefetch(const PointBlock& block, std::size_t count) noexcept {
-    std::array<VoxelIndex, PointBlock::kSize> voxels;
-    std::array<std::uint32_t, PointBlock::kSize> places;  // bricks, then heads
-    std::size_t unknown = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      voxels[unknown] = block.voxel(i);
-      unknown += static_cast<std::size_t>(cache_.at(voxels[unknown]).key != block.key(i));
-    }
-    constexpr std::size_t kWorthwhile = 8;  // fewer wait for less than looking ahead takes
-    if (unknown < kWorthwhile) {
-      return;
-    }
-    for (std::size_t i = 0; i < unknown; ++i) {
-      storage_.prefetch_slot(voxels[i]);
-    }
-    for (std::size_t i = 0; i < unknown; ++i) {
-      places[i] = storage_.prefetch_head(voxels[i]);
-    }
-    for (std::size_t i = 0; i < unknown; ++i) {
-      places[i] = storage_.prefetch_surface(places[i], voxels[i]);
-    }
-    for (std::size_t i = 0; i < unknown; ++i) {
-      if (places[i] != kNone) {
-        const PointChunk& head = storage_.chunk(places[i]);
-        storage_.recency().prefetch(head.voxel);
-        if (head.next != kNone) {
-          storage_.prefetch_chunk(head.next);
-        }
-      }
-    }
-  }
-
-  void insert(
-      IndexKey key,
-      const VoxelIndex& index,
-      const WrappedPoint& point,
-      const StoredNormal& normal) {
-    VoxelCache::Entry& cached = cache_.at(index);
+  void insert_point(const PointBlock& block, std::size_t i) {
+    const IndexKey key = block.key(i);
+    VoxelCache::Entry& cached = cache_[block.cache_slot(i)];
     if (cached.key != key || cached.insertion != number_) {
-      const std::uint32_t found = cached.key == key ? cached.head : find_or_create(index);
+      const std::uint32_t found = cached.key == key
+                                      ? cached.head
+                                      : find_or_create(block.voxel(i), look_ahead_.brick_hint(i));
       if (found == kNone) {
         ++stats_.map_full;
         return;
       }
-      storage_.recency().use(storage_.chunk(found).voxel);
+      storage_.recency().use(chunks_[found].voxel);
       cached = {key, found, number_};
     }
-    const std::uint32_t head = cached.head;
-    const std::uint32_t surface = surface_for(head, normal);
+    const StoredNormal normal = block.normal(i);
+    const std::uint32_t surface = surface_for(cached.head, normal);
     if (surface == kNone) {
       ++stats_.map_full;
       return;
     }
-    add_to_surface(surface, point, normal);
+    add_to_surface(surface, block.wrapped(i), normal);
   }
 
-  std::uint32_t find_or_create(const VoxelIndex& index) {
-    const std::uint32_t found = storage_.find_voxel(index);
+  /// Head of the voxel's front surface, or kNone without room for the voxel. `brick_hint` is its
+  /// brick, or any other.
+  std::uint32_t find_or_create(const VoxelIndex& index, std::uint32_t brick_hint) {
+    const IndexKey key = index_key(brick_index(index));
+    std::uint32_t brick =
+        storage_.is_brick(brick_hint, key) ? brick_hint : storage_.find_brick(key);
+    const std::uint32_t found = storage_.head_in(brick, cell_in_brick(index));
     if (found != kNone) {
       return found;
     }
-    if (!make_room_for_voxel(index)) {
-      return kNone;
+    while (!has_room_for_voxel(brick)) {
+      if (storage_.voxel_count() == 0) {
+        return kNone;
+      }
+      evict(storage_.recency().oldest());
+      brick = storage_.find_brick(key);
     }
     ++stats_.new_voxels;
-    return storage_.create_voxel(index);
+    return storage_.create_voxel(index, brick);
   }
 
   /// The view-consistency judgment (paper III-B-1, spec §3.4). Head of the surface that takes the
   /// normal, made when needed; kNone without room for it.
   std::uint32_t surface_for(std::uint32_t front, const StoredNormal& normal) {
-    if (normal == StoredNormal{} || storage_.chunk(front).size == 0) {
+    if (normal == StoredNormal{} || chunks_[front].size == 0) {
       return front;
     }
     const Choice choice = options_.surface_rule == SurfaceRule::kPaper
@@ -145,7 +120,7 @@ class Insertion {
     if (!choice.makes_new) {
       return choice.surface;
     }
-    const std::uint32_t voxel = storage_.chunk(front).voxel;
+    const std::uint32_t voxel = chunks_[front].voxel;
     if (!make_room_for_chunk(voxel)) {
       return kNone;
     }
@@ -163,7 +138,7 @@ class Insertion {
   Choice first_consistent(std::uint32_t front, const StoredNormal& normal) const noexcept {
     std::uint32_t surface = front;
     for (int count = 1;; ++count) {
-      const PointChunk& chunk = storage_.chunk(surface);
+      const PointChunk& chunk = chunks_[surface];
       if (count == options_.max_surfaces || dot(chunk.direction, normal) > gate_.min_surface_dot) {
         return {surface, false};
       }
@@ -179,9 +154,8 @@ class Insertion {
     std::uint32_t best = front;
     std::uint32_t last = front;
     int count = 0;
-    for (std::uint32_t surface = front; surface != kNone;
-         surface = storage_.chunk(surface).next_surface) {
-      const int surface_dot = dot(storage_.chunk(surface).direction, normal);
+    for (std::uint32_t surface = front; surface != kNone; surface = chunks_[surface].next_surface) {
+      const int surface_dot = dot(chunks_[surface].direction, normal);
       if (surface_dot > best_dot) {
         best_dot = surface_dot;
         best = surface;
@@ -194,7 +168,7 @@ class Insertion {
   }
 
   void add_to_surface(std::uint32_t head, const WrappedPoint& point, const StoredNormal& normal) {
-    const int size = storage_.chunk(head).size;
+    const int size = chunks_[head].size;
     if (size >= options_.points_per_surface) {
       ++stats_.surface_full;
       return;
@@ -202,9 +176,9 @@ class Insertion {
     const LanePoint lanes(point);
     std::uint32_t last = head;
     int left = size;
-    for (std::uint32_t id = head; id != kNone; id = storage_.chunk(id).next, left -= kLanes) {
+    for (std::uint32_t id = head; id != kNone; id = chunks_[id].next, left -= kLanes) {
       IntLanes distances;
-      sq_distances(storage_.chunk(id), lanes, distances);
+      sq_distances(chunks_[id], lanes, distances);
       if ((lanes_below(distances, min_sq_steps_) & first_lanes(left)) != 0) {
         ++stats_.too_close;
         return;
@@ -216,7 +190,7 @@ class Insertion {
       return;
     }
     const bool needs_chunk = size > 0 && size % kLanes == 0;
-    if (needs_chunk && !make_room_for_chunk(storage_.chunk(head).voxel)) {
+    if (needs_chunk && !make_room_for_chunk(chunks_[head].voxel)) {
       ++stats_.map_full;
       return;
     }
@@ -235,8 +209,9 @@ class Insertion {
   }
 
   template <class Gate>
-  bool finds_any(const Gate& gate, std::uint32_t head, const WrappedPoint& point) const noexcept {
-    const std::uint32_t voxel = storage_.chunk(head).voxel;
+  [[gnu::noinline]] bool finds_any(
+      const Gate& gate, std::uint32_t head, const WrappedPoint& point) const noexcept {
+    const std::uint32_t voxel = chunks_[head].voxel;
     const LatticePoint place{
         storage_.index_of(voxel),
         {step_in_voxel(point.x), step_in_voxel(point.y), step_in_voxel(point.z)}};
@@ -246,19 +221,10 @@ class Insertion {
     return found.count() > 0;
   }
 
-  bool make_room_for_voxel(const VoxelIndex& index) {
-    const auto has_room = [&] {
-      return !storage_.voxels_exhausted() && !storage_.chunks_exhausted() &&
-             (!storage_.bricks_exhausted() ||
-              storage_.find_brick(index_key(brick_index(index))) != kNone);
-    };
-    while (!has_room()) {
-      if (storage_.voxel_count() == 0) {
-        return false;
-      }
-      evict(storage_.recency().oldest());
-    }
-    return true;
+  /// Room for a voxel in `brick`, or in a new brick for kNone.
+  bool has_room_for_voxel(std::uint32_t brick) const noexcept {
+    return !storage_.voxels_exhausted() && !storage_.chunks_exhausted() &&
+           (brick != kNone || !storage_.bricks_exhausted());
   }
 
   /// Never evicts `voxel`, which is about to grow.
@@ -289,8 +255,10 @@ class Insertion {
   NormalGate gate_;
   std::int32_t min_sq_steps_;
   VoxelStorage& storage_;
+  const PointChunk* chunks_;  // copied from it: behind a reference it would be read again and again
   VoxelCache& cache_;
   std::uint32_t number_;
+  LookAhead look_ahead_;
   InsertStats stats_;
 };
 

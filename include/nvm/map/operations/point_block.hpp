@@ -13,6 +13,7 @@
 #include "nvm/map/storage/brick.hpp"
 #include "nvm/map/storage/lattice.hpp"
 #include "nvm/map/storage/stored_normal.hpp"
+#include "nvm/map/storage/voxel_cache.hpp"
 
 namespace nvm::detail {
 
@@ -83,6 +84,7 @@ class PointBlock {
 
   Status status(std::size_t i) const noexcept { return status_[i]; }
   IndexKey key(std::size_t i) const noexcept { return key_[i]; }
+  std::uint32_t cache_slot(std::size_t i) const noexcept { return cache_slot_[i]; }
   VoxelIndex voxel(std::size_t i) const noexcept {
     return {voxel_[0][i], voxel_[1][i], voxel_[2][i]};
   }
@@ -132,6 +134,9 @@ class PointBlock {
     for (std::size_t i = 0; i < kSize; ++i) {
       key_[i] = index_key(voxel_[0][i], voxel_[1][i], voxel_[2][i]);
     }
+    for (std::size_t i = 0; i < kSize; ++i) {
+      cache_slot_[i] = VoxelCache::slot(voxel_[0][i], voxel_[1][i], voxel_[2][i]);
+    }
   }
 
   void judge_normals(Axes<float>& turned) noexcept {
@@ -156,6 +161,7 @@ class PointBlock {
   Axes<std::int16_t> wrapped_;
   Axes<std::int8_t> stored_;
   Lane<IndexKey> key_;
+  Lane<std::uint32_t> cache_slot_;
   Lane<Status> status_;
 };
 

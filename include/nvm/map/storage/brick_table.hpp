@@ -12,8 +12,28 @@
 
 namespace nvm::detail {
 
-/// A flat hash table from a brick's IndexKey to the brick, with linear probing and backward-shift
-/// deletion; `hash` is always that of the key.
+/// The key of a brick with its hash, for callers that look more than once.
+struct BrickAddress {
+  BrickAddress() = default;
+  BrickAddress(IndexKey brick) noexcept : key(brick), hash(hash_of(brick)) {}
+
+  IndexKey key;
+  std::uint64_t hash;
+
+ private:
+  /// The full finaliser of MurmurHash3: the keys of neighbouring bricks differ in few bits.
+  static std::uint64_t hash_of(IndexKey key) noexcept {
+    key ^= key >> 33;
+    key *= 0xff51afd7ed558ccdULL;
+    key ^= key >> 33;
+    key *= 0xc4ceb9fe1a85ec53ULL;
+    key ^= key >> 33;
+    return key;
+  }
+};
+
+/// A flat hash table from a brick's address to the brick, with linear probing and backward-shift
+/// deletion.
 ///
 /// A slot is chosen by the highest bits of the hash, so doubling the table spreads its entries
 /// without changing their order: one sequential pass.
@@ -21,10 +41,10 @@ class BrickTableShard {
  public:
   BrickTableShard() : slots_(allocate_zeroed<Slot>(slot_count())) {}
 
-  /// The brick with `key`, or kNone.
-  std::uint32_t find(IndexKey key, std::uint64_t hash) const noexcept {
-    for (std::size_t i = home(hash);; i = next(i)) {
-      if (slots_[i].key == key) {
+  /// The brick at `address`, or kNone.
+  std::uint32_t find(const BrickAddress& address) const noexcept {
+    for (std::size_t i = home(address.hash);; i = next(i)) {
+      if (slots_[i].key == address.key) {
         return slots_[i].brick;
       }
       if (slots_[i].key == 0) {
@@ -34,29 +54,29 @@ class BrickTableShard {
   }
 
   /// Starts to load what find() reads.
-  [[gnu::always_inline]] void prefetch(std::uint64_t hash) const noexcept {
-    __builtin_prefetch(&slots_[home(hash)]);
+  [[gnu::always_inline]] void prefetch(const BrickAddress& address) const noexcept {
+    __builtin_prefetch(&slots_[home(address.hash)]);
   }
 
-  /// `key` must not be in the table. Throws std::bad_alloc, before anything is changed, when the
-  /// table cannot grow.
-  void insert(IndexKey key, std::uint64_t hash, std::uint32_t brick) {
+  /// `address` must not be in the table. Throws std::bad_alloc, before anything is changed, when
+  /// the table cannot grow.
+  void insert(const BrickAddress& address, std::uint32_t brick) {
     if (2 * (size_ + 1) > slot_count()) {
       grow();
     }
-    place({key, brick}, hash);
+    place({address.key, brick}, address.hash);
     ++size_;
   }
 
-  /// `key` must be in the table.
-  void erase(IndexKey key, std::uint64_t hash) noexcept {
-    std::size_t hole = home(hash);
-    while (slots_[hole].key != key) {
+  /// `address` must be in the table.
+  void erase(const BrickAddress& address) noexcept {
+    std::size_t hole = home(address.hash);
+    while (slots_[hole].key != address.key) {
       hole = next(hole);
     }
     for (std::size_t i = next(hole); slots_[i].key != 0; i = next(i)) {
       // Whether its probe passes over the hole.
-      if (distance(home(hash_of(slots_[i].key)), i) >= distance(hole, i)) {
+      if (distance(home(BrickAddress(slots_[i].key).hash), i) >= distance(hole, i)) {
         slots_[hole] = slots_[i];
         hole = i;
       }
@@ -73,16 +93,6 @@ class BrickTableShard {
   };
 
   static constexpr int kFirstBits = 4;
-
-  /// The full finaliser of MurmurHash3: the keys of neighbouring bricks differ in few bits.
-  static std::uint64_t hash_of(IndexKey key) noexcept {
-    key ^= key >> 33;
-    key *= 0xff51afd7ed558ccdULL;
-    key ^= key >> 33;
-    key *= 0xc4ceb9fe1a85ec53ULL;
-    key ^= key >> 33;
-    return key;
-  }
 
  private:
   std::size_t slot_count() const noexcept { return std::size_t{1} << (64 - shift_); }
@@ -109,7 +119,7 @@ class BrickTableShard {
     --shift_;
     for (std::size_t i = 0; i < old_count; ++i) {
       if (old[i].key != 0) {
-        place(old[i], hash_of(old[i].key));
+        place(old[i], BrickAddress(old[i].key).hash);
       }
     }
   }
@@ -119,34 +129,28 @@ class BrickTableShard {
   RawArray<Slot> slots_;
 };
 
-/// Finds bricks by their IndexKey. In shards that grow one by one, each at its own time, because
+/// Finds bricks by their address. In shards that grow one by one, each at its own time, because
 /// doubling one large table is a pause: 10 ms at 10^7 points.
 class BrickTable {
  public:
-  /// The brick with `key`, or kNone.
-  std::uint32_t find(IndexKey key) const noexcept {
-    const std::uint64_t hash = BrickTableShard::hash_of(key);
-    return shards_[hash % kShards].find(key, hash);
+  /// The brick at `address`, or kNone.
+  std::uint32_t find(const BrickAddress& address) const noexcept {
+    return shards_[shard(address)].find(address);
   }
 
-  /// Starts to load what find(key) reads.
-  [[gnu::always_inline]] void prefetch(IndexKey key) const noexcept {
-    const std::uint64_t hash = BrickTableShard::hash_of(key);
-    shards_[hash % kShards].prefetch(hash);
+  /// Starts to load what find() reads.
+  [[gnu::always_inline]] void prefetch(const BrickAddress& address) const noexcept {
+    shards_[shard(address)].prefetch(address);
   }
 
-  /// `key` must not be in the table. Throws std::bad_alloc, before anything is changed, when the
-  /// table cannot grow.
-  void insert(IndexKey key, std::uint32_t brick) {
-    const std::uint64_t hash = BrickTableShard::hash_of(key);
-    shards_[hash % kShards].insert(key, hash, brick);
+  /// `address` must not be in the table. Throws std::bad_alloc, before anything is changed, when
+  /// the table cannot grow.
+  void insert(const BrickAddress& address, std::uint32_t brick) {
+    shards_[shard(address)].insert(address, brick);
   }
 
-  /// `key` must be in the table.
-  void erase(IndexKey key) noexcept {
-    const std::uint64_t hash = BrickTableShard::hash_of(key);
-    shards_[hash % kShards].erase(key, hash);
-  }
+  /// `address` must be in the table.
+  void erase(const BrickAddress& address) noexcept { shards_[shard(address)].erase(address); }
 
   std::size_t bytes() const noexcept {
     std::size_t sum = 0;
@@ -164,6 +168,7 @@ class BrickTable {
 
  private:
   static constexpr std::size_t kShards = 64;
+  static std::size_t shard(const BrickAddress& address) noexcept { return address.hash % kShards; }
 
   std::array<BrickTableShard, kShards> shards_;
 };

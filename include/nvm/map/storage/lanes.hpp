@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The nvm authors
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
@@ -144,7 +145,7 @@ inline constexpr auto kSetBits = [] {
 }
 
 /// Bit i is set for the first `count` lanes.
-inline std::uint32_t first_lanes(int count) { return count >= kLanes ? 0xffU : (1U << count) - 1U; }
+inline std::uint32_t first_lanes(int count) { return 0xffU >> (kLanes - std::min(count, kLanes)); }
 
 /// Bit i is set when values[i] > limit.
 [[gnu::always_inline]] inline std::uint32_t lanes_above(

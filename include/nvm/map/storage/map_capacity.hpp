@@ -10,8 +10,8 @@
 #include "nvm/map/storage/brick.hpp"
 #include "nvm/map/storage/brick_table.hpp"
 #include "nvm/map/storage/point_chunk.hpp"
+#include "nvm/map/storage/principal_direction.hpp"
 #include "nvm/map/storage/recency.hpp"
-#include "nvm/map/storage/surface_moments.hpp"
 
 namespace nvm::detail {
 
@@ -30,7 +30,7 @@ struct MapCapacity {
   }
 
   static constexpr std::size_t kBytesPerChunk =
-      sizeof(PointChunk) + sizeof(NormalChunk) + sizeof(SurfaceMoments);
+      sizeof(PointChunk) + sizeof(NormalChunk) + sizeof(PowerStep);
 };
 
 /// Without a limit in bytes there is room for the worst case: each voxel in a brick of its own, all

@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "nvm/core/assert.hpp"
 #include "nvm/map/storage/lanes.hpp"
 #include "nvm/map/storage/map_capacity.hpp"
 #include "nvm/map/storage/point_chunk.hpp"
 #include "nvm/map/storage/pool.hpp"
-#include "nvm/map/storage/surface_moments.hpp"
+#include "nvm/map/storage/principal_direction.hpp"
 
 namespace nvm::detail {
 
@@ -28,7 +29,7 @@ class SurfaceStorage {
       : chunk_ids_(capacity),
         chunks_(allocate_uninitialized<PointChunk>(capacity)),
         normals_(allocate_uninitialized<NormalChunk>(capacity)),
-        moments_(allocate_uninitialized<SurfaceMoments>(capacity)) {}
+        power_steps_(allocate_uninitialized<PowerStep>(capacity)) {}
 
   const PointChunk* chunks() const noexcept { return chunks_.get(); }
   const NormalChunk* normals() const noexcept { return normals_.get(); }
@@ -38,7 +39,7 @@ class SurfaceStorage {
   [[gnu::always_inline]] void prefetch_chunk(std::uint32_t head) const noexcept {
     __builtin_prefetch(&chunks_[head]);
     __builtin_prefetch(&normals_[head]);
-    __builtin_prefetch(&moments_[head]);
+    __builtin_prefetch(&power_steps_[head]);
   }
   /// Points in all surfaces.
   std::size_t point_count() const noexcept { return point_count_; }
@@ -52,7 +53,6 @@ class SurfaceStorage {
     chunk.direction = {};
     chunk.size = 0;
     chunk.tight = 0;
-    moments_[head] = {};
     return head;
   }
   void link_surface(std::uint32_t last_head, std::uint32_t head) noexcept {
@@ -77,7 +77,6 @@ class SurfaceStorage {
     chunks_[last].set_position(lane, point);
     normals_[last].set(lane, normal);
     surface.size = static_cast<std::uint8_t>((surface.size + 1) & 0x7f);
-    moments_[head].add(normal);
     update_direction(head, normal);
     ++point_count_;
     return last;
@@ -114,50 +113,74 @@ class SurfaceStorage {
   /// After `added` has joined the surface.
   void update_direction(std::uint32_t head, const StoredNormal& added) noexcept {
     PointChunk& surface = chunks_[head];
-    const int along = dot(added, surface.direction);
+    PowerStep& step = power_steps_[head];
     if (surface.size == 1) {
       surface.direction = added;
       surface.tight = 1;
-    } else if (along > 0 && is_principal(moments_[head], surface.direction)) {
+      step = {};
+      step.add(added, dot(added, added));
+      return;
+    }
+    const int along = dot(added, surface.direction);
+    step.add(added, along);
+    if (along > 0 && is_principal(step, surface.direction, surface.size)) {
       // Still: the usual case. Its sign is right, because the sum came to lie nearer to it.
       surface.tight = surface.tight != 0 && along > kTightDot ? 1 : 0;
     } else if (added == StoredNormal{}) {
       surface.tight = 0;
     } else {
-      surface.direction = principal_direction(moments_[head], sum_of_normals(head));
-      surface.tight = is_tight(head) ? 1 : 0;
+      turn(surface, step, surface.tight != 0 && along > kTightDot);
     }
   }
 
-  WideVector sum_of_normals(std::uint32_t head) const noexcept {
-    WideVector sum{0, 0, 0};
-    int left = chunks_[head].size;
-    for (std::uint32_t id = head; left > 0; id = chunks_[id].next, left -= kLanes) {
-      for (int lane = 0; lane < std::min(left, kLanes); ++lane) {
-        const StoredNormal normal = normals_[id].get(lane);
-        sum.x += normal.x;
-        sum.y += normal.y;
-        sum.z += normal.z;
+  /// Finds the direction anew.
+  [[gnu::noinline]] void turn(PointChunk& surface, PowerStep& step, bool is_tight) noexcept {
+    if (is_tight) {  // a step of the power iteration is all it takes, and keeps the sign
+      surface.direction = store_direction(wide(step));
+      survey(surface, step);
+      if (is_principal(step, surface.direction, surface.size)) {
+        return;
       }
     }
-    return sum;
+    NormalSums sums;
+    for_each_normals(surface, [&](const NormalChunk& normals, int count) {
+      for (int lane = 0; lane < count; ++lane) {
+        sums.add(normals.get(lane));
+      }
+    });
+    surface.direction = principal_direction(sums);
+    survey(surface, step);
   }
 
-  bool is_tight(std::uint32_t head) const noexcept {
-    int left = chunks_[head].size;
-    for (std::uint32_t id = head; left > 0; id = chunks_[id].next, left -= kLanes) {
-      const std::uint32_t lanes = first_lanes(left);
-      if ((lanes_facing(normals_[id], chunks_[head].direction, kTightDot) & lanes) != lanes) {
-        return false;
+  /// Looks at all normals of a surface from its direction: the power step, and whether it is tight.
+  void survey(PointChunk& surface, PowerStep& step) const noexcept {
+    const StoredNormal direction = surface.direction;
+    step = {};
+    int min_along = std::numeric_limits<int>::max();
+    for_each_normals(surface, [&](const NormalChunk& normals, int count) {
+      for (int lane = 0; lane < kLanes; ++lane) {  // all lanes, without a branch
+        const StoredNormal normal = normals.get(lane);
+        const int along = dot(normal, direction);
+        step.add(normal, lane < count ? along : 0);
+        min_along = std::min(min_along, lane < count ? along : min_along);
       }
+    });
+    surface.tight = min_along > kTightDot ? 1 : 0;
+  }
+
+  /// Calls visit(normals, count) for each chunk of a surface.
+  template <class Visitor>
+  void for_each_normals(const PointChunk& head, Visitor&& visit) const noexcept {
+    int left = head.size;
+    for (const PointChunk* chunk = &head; left > 0; chunk = &chunks_[chunk->next], left -= kLanes) {
+      visit(normals_[chunk - chunks_.get()], std::min(left, kLanes));
     }
-    return true;
   }
 
   IndexAllocator chunk_ids_;
   RawArray<PointChunk> chunks_;
   RawArray<NormalChunk> normals_;
-  RawArray<SurfaceMoments> moments_;  // of head chunks
+  RawArray<PowerStep> power_steps_;  // of heads
   std::size_t point_count_ = 0;
 };
 

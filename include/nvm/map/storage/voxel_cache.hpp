@@ -30,21 +30,22 @@ class VoxelCache {
     return insertion_;
   }
 
-  /// The place of the voxel; another voxel, or none, may be remembered there.
-  Entry& at(const VoxelIndex& voxel) noexcept { return entries_[slot(voxel)]; }
-  void forget(const VoxelIndex& voxel) noexcept { entries_[slot(voxel)] = {}; }
+  /// Another voxel than the one looked for, or none, may be remembered in its slot.
+  Entry& operator[](std::uint32_t slot) noexcept { return entries_[slot]; }
+  /// The slot of a voxel: strides that spread a wall along any axis over the slots.
+  static std::uint32_t slot(std::int32_t x, std::int32_t y, std::int32_t z) noexcept {
+    const std::uint32_t mixed = static_cast<std::uint32_t>(x) +
+                                static_cast<std::uint32_t>(y) * 37U +
+                                static_cast<std::uint32_t>(z) * 613U;
+    return mixed % kSlots;
+  }
+  void forget(const VoxelIndex& voxel) noexcept {
+    entries_[slot(voxel.x(), voxel.y(), voxel.z())] = {};
+  }
   void clear() noexcept { entries_.fill({}); }
 
  private:
   static constexpr std::uint32_t kSlots = 1024;
-
-  // Strides that spread a wall along any axis over the slots.
-  static std::size_t slot(const VoxelIndex& voxel) noexcept {
-    const std::uint32_t mixed = static_cast<std::uint32_t>(voxel.x()) +
-                                static_cast<std::uint32_t>(voxel.y()) * 37U +
-                                static_cast<std::uint32_t>(voxel.z()) * 613U;
-    return mixed % kSlots;
-  }
 
   std::array<Entry, kSlots> entries_{};
   std::uint32_t insertion_ = 0;

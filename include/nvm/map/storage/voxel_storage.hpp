@@ -39,8 +39,10 @@ class VoxelStorage : public SurfaceStorage {
 
   // --- reading
 
-  /// The brick with `key`, or kNone.
-  std::uint32_t find_brick(IndexKey key) const noexcept { return table_.find(key); }
+  /// The brick at `address`, or kNone.
+  std::uint32_t find_brick(const BrickAddress& address) const noexcept {
+    return table_.find(address);
+  }
   /// True when `brick` is, still, the brick with `key`.
   bool is_brick(std::uint32_t brick, IndexKey key) const noexcept {
     return brick < brick_ids_.high_water() && bricks_[brick].key == key;
@@ -54,39 +56,37 @@ class VoxelStorage : public SurfaceStorage {
   }
   const Brick& brick(std::uint32_t id) const noexcept { return bricks_[id]; }
 
-  /// Head chunk of the voxel's front surface, or kNone when there is no such voxel.
-  std::uint32_t find_voxel(const VoxelIndex& voxel) const noexcept {
-    const std::uint32_t id = table_.find(index_key(brick_index(voxel)));
-    const int cell = cell_in_brick(voxel);
-    return id == kNone || !bricks_[id].has(cell) ? kNone
-                                                 : bricks_[id].head[static_cast<std::size_t>(cell)];
+  /// Head chunk of the front surface in a cell of a brick (or none); kNone when there is no voxel.
+  std::uint32_t head_in(std::uint32_t brick, int cell) const noexcept {
+    return brick == kNone || !bricks_[brick].has(cell)
+               ? kNone
+               : bricks_[brick].head[static_cast<std::size_t>(cell)];
   }
 
-  // Where find_voxel() and what follows it wait for memory, step by step; hints that change
+  // Where looking for a voxel, and what follows, waits for memory, step by step; hints that change
   // nothing. Each step reads what the one before has loaded, so that a caller who takes each step
   // for many voxels before the next waits once for all of them.
 
-  [[gnu::always_inline]] void prefetch_slot(const VoxelIndex& voxel) const noexcept {
-    table_.prefetch(index_key(brick_index(voxel)));
+  [[gnu::always_inline]] void prefetch_slot(const BrickAddress& address) const noexcept {
+    table_.prefetch(address);
   }
-  /// The brick of `voxel`, or kNone.
-  [[gnu::always_inline]] std::uint32_t prefetch_head(const VoxelIndex& voxel) const noexcept {
-    const std::uint32_t id = table_.find(index_key(brick_index(voxel)));
+  /// The brick at `address`, or kNone.
+  [[gnu::always_inline]] std::uint32_t prefetch_head(
+      const BrickAddress& address, int cell) const noexcept {
+    const std::uint32_t id = table_.find(address);
     if (id != kNone) {
       __builtin_prefetch(&bricks_[id].occupied);
-      __builtin_prefetch(&bricks_[id].head[static_cast<std::size_t>(cell_in_brick(voxel))]);
+      __builtin_prefetch(&bricks_[id].head[static_cast<std::size_t>(cell)]);
     }
     return id;
   }
-  /// The head of `voxel`, or kNone.
+  /// What head_in() says.
   [[gnu::always_inline]] std::uint32_t prefetch_surface(
-      std::uint32_t brick, const VoxelIndex& voxel) const noexcept {
-    const int cell = cell_in_brick(voxel);
-    if (brick == kNone || !bricks_[brick].has(cell)) {
-      return kNone;
+      std::uint32_t brick, int cell) const noexcept {
+    const std::uint32_t head = head_in(brick, cell);
+    if (head != kNone) {
+      prefetch_chunk(head);
     }
-    const std::uint32_t head = bricks_[brick].head[static_cast<std::size_t>(cell)];
-    prefetch_chunk(head);
     return head;
   }
 
@@ -177,18 +177,19 @@ class VoxelStorage : public SurfaceStorage {
   bool bricks_exhausted() const noexcept { return brick_ids_.exhausted(); }
 
   /// Makes the voxel `index`, used now, with an empty front surface, and returns its head. There
-  /// must be no such voxel, and room for a voxel, a chunk and, unless its brick exists, a brick.
-  /// Throws std::bad_alloc, changing nothing.
-  std::uint32_t create_voxel(const VoxelIndex& index) {
-    const std::uint32_t head = place_voxel(index);
+  /// must be no such voxel, and room for a voxel, a chunk and, unless it exists, `brick`: the brick
+  /// of the voxel, or kNone to make it. Throws std::bad_alloc, changing nothing.
+  std::uint32_t create_voxel(const VoxelIndex& index, std::uint32_t brick) {
+    const std::uint32_t head = place_voxel(index, brick);
     recency_.add(chunk(head).voxel);
     return head;
   }
 
   /// The same for a voxel read from a file, with the standing that it had. kNone when that is
   /// impossible.
-  std::uint32_t restore_voxel(const VoxelIndex& index, std::uint32_t listed, std::uint32_t stamp) {
-    const std::uint32_t head = place_voxel(index);
+  std::uint32_t restore_voxel(
+      const VoxelIndex& index, std::uint32_t brick, std::uint32_t listed, std::uint32_t stamp) {
+    const std::uint32_t head = place_voxel(index, brick);
     return recency_.restore({chunk(head).voxel, listed, stamp}) ? head : kNone;
   }
 
@@ -231,8 +232,10 @@ class VoxelStorage : public SurfaceStorage {
   }
 
  private:
-  std::uint32_t place_voxel(const VoxelIndex& index) {
-    const std::uint32_t brick = find_or_create_brick(brick_index(index));
+  std::uint32_t place_voxel(const VoxelIndex& index, std::uint32_t brick) {
+    if (brick == kNone) {
+      brick = create_brick(brick_index(index));
+    }
     const std::uint32_t voxel = voxel_ids_.take(voxel_link());
     const std::uint32_t head = create_surface(voxel);
     const auto cell = static_cast<std::uint32_t>(cell_in_brick(index));
@@ -242,12 +245,8 @@ class VoxelStorage : public SurfaceStorage {
     return head;
   }
 
-  std::uint32_t find_or_create_brick(const VoxelIndex& index) {
+  std::uint32_t create_brick(const VoxelIndex& index) {
     const IndexKey key = index_key(index);
-    const std::uint32_t found = table_.find(key);
-    if (found != kNone) {
-      return found;
-    }
     const std::uint32_t id = brick_ids_.take(brick_link());
     NVM_ASSERT(id != kNone);
     try {

@@ -2,27 +2,14 @@
 // Copyright (c) 2026 The nvm authors
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 
 #include "nvm/map/storage/stored_normal.hpp"
 
 namespace nvm::detail {
-
-/// Sum n n^T over the stored normals of a surface: exact integers, so that neither the order of
-/// insertion nor an erasure leaves a trace.
-struct SurfaceMoments {
-  std::int32_t xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
-
-  void add(const StoredNormal& n) {
-    xx += n.x * n.x;
-    xy += n.x * n.y;
-    xz += n.x * n.z;
-    yy += n.y * n.y;
-    yz += n.y * n.z;
-    zz += n.z * n.z;
-  }
-};
 
 /// A symmetric 3 x 3 matrix and a vector of integers, for directions only: their scale does not
 /// matter.
@@ -43,6 +30,32 @@ inline WideVector operator*(const WideMatrix& m, const WideVector& v) {
 inline std::int64_t dot(const WideVector& a, const WideVector& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
+
+inline WideVector cross(const WideVector& a, const WideVector& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+inline WideVector wide(const StoredNormal& n) { return {n.x, n.y, n.z}; }
+
+/// What the principal direction of a surface is made of: exact integers, so that the order of
+/// insertion leaves no trace.
+struct NormalSums {
+  WideVector normals{0, 0, 0};           // sum n
+  WideMatrix squares{0, 0, 0, 0, 0, 0};  // sum n n^T
+  int count = 0;
+
+  void add(const StoredNormal& stored) {
+    const WideVector n = wide(stored);
+    normals = {normals.x + n.x, normals.y + n.y, normals.z + n.z};
+    squares.xx += n.x * n.x;
+    squares.xy += n.x * n.y;
+    squares.xz += n.x * n.z;
+    squares.yy += n.y * n.y;
+    squares.yz += n.y * n.z;
+    squares.zz += n.z * n.z;
+    ++count;
+  }
+};
 
 /// The square of a positive semidefinite matrix, scaled by a power of two so that its entries stay
 /// below 2^15.
@@ -93,39 +106,56 @@ inline WideVector dominant_eigenvector(WideMatrix m) {
   return m.yy >= m.zz ? WideVector{m.xy, m.yy, m.yz} : WideVector{m.xz, m.yz, m.zz};
 }
 
-inline WideMatrix matrix_of(const SurfaceMoments& moments) {
-  return {moments.xx, moments.xy, moments.xz, moments.yy, moments.yz, moments.zz};
+/// (sum n n^T) d for the principal direction d of a surface: one step of the power iteration. Kept
+/// up to date as normals come in, it says at a glance whether d is the principal direction still.
+struct PowerStep {
+  std::int32_t x = 0;
+  std::int32_t y = 0;
+  std::int32_t z = 0;
+
+  /// `along` is the dot of `n` with the direction.
+  void add(const StoredNormal& n, int along) {
+    x += along * n.x;
+    y += along * n.y;
+    z += along * n.z;
+  }
+};
+
+inline WideVector wide(const PowerStep& step) { return {step.x, step.y, step.z}; }
+
+inline PowerStep power_step(const NormalSums& sums, const StoredNormal& direction) {
+  const WideVector step = sums.squares * wide(direction);
+  return {
+      static_cast<std::int32_t>(step.x),
+      static_cast<std::int32_t>(step.y),
+      static_cast<std::int32_t>(step.z)};
 }
 
-/// True when `direction` is, up to its sign, the principal direction to about 2 degrees, more than
-/// enough for a threshold of 90 +- 10: the matrix turns it by less than 1.3 degrees, and its
-/// eigenvalue is more than half of the trace.
-inline bool is_principal(const SurfaceMoments& m, const StoredNormal& direction) {
-  // Keeps the products below 2^63; division, unlike a shift, treats both signs alike.
-  constexpr std::int32_t kScale = 1 << 12;
-  const std::int64_t x = (m.xx * direction.x + m.xy * direction.y + m.xz * direction.z) / kScale;
-  const std::int64_t y = (m.xy * direction.x + m.yy * direction.y + m.yz * direction.z) / kScale;
-  const std::int64_t z = (m.xz * direction.x + m.yz * direction.y + m.zz * direction.z) / kScale;
-  const std::int64_t along = x * direction.x + y * direction.y + z * direction.z;
-  const std::int64_t sq_direction = dot(direction, direction);
-  const std::int64_t sq_across = sq_direction * (x * x + y * y + z * z) - along * along;
-  const std::int64_t trace = m.xx + m.yy + m.zz;
-  return sq_across < along * along / 2048 && 2 * along > trace * sq_direction / kScale;
+/// True when `direction` is, up to its sign, the principal direction of `count` normals to about
+/// 2 degrees, more than enough for a threshold of 90 +- 10: the step turns it by no more than that,
+/// and its eigenvalue is more than half of the trace.
+inline bool is_principal(const PowerStep& step, const StoredNormal& direction, int count) {
+  constexpr int kMaxSqLength = 1 << 14;  // of a stored normal: 127^2, and some rounding
+  const std::int64_t along = dot(wide(step), wide(direction));
+  const WideVector off = cross(wide(step), wide(direction));
+  const std::int64_t across = std::max({std::abs(off.x), std::abs(off.y), std::abs(off.z)});
+  constexpr int kCotangent = 50;  // three components make a tangent of sqrt(3) / 50 at most
+  return kCotangent * across < along &&
+         2 * along > std::int64_t{kMaxSqLength} * kMaxSqLength * count;
 }
 
 /// The principal direction of a surface (spec §3.3): the dominant eigenvector of sum n n^T with the
-/// sign of `sum`, sum n; zero without normals. In integers, because a fused multiply-add here would
+/// sign of sum n; zero without normals. In integers, because a fused multiply-add here would
 /// make maps differ between processors.
-inline StoredNormal principal_direction(const SurfaceMoments& moments, const WideVector& sum) {
-  const WideMatrix matrix = matrix_of(moments);
+inline StoredNormal principal_direction(const NormalSums& sums) {
   // Where the normals agree, as on any wall, one step of the power iteration from their sum is all
   // it takes, and keeps the sum's sign: the matrix is positive.
-  const StoredNormal guess = store_direction(matrix * sum);
-  if (is_principal(moments, guess)) {
+  const StoredNormal guess = store_direction(sums.squares * sums.normals);
+  if (is_principal(power_step(sums, guess), guess, sums.count)) {
     return guess;
   }
-  const WideVector eigenvector = dominant_eigenvector(matrix);
-  const std::int64_t sign = dot(eigenvector, sum) < 0 ? -1 : 1;
+  const WideVector eigenvector = dominant_eigenvector(sums.squares);
+  const std::int64_t sign = dot(eigenvector, sums.normals) < 0 ? -1 : 1;
   return store_direction({sign * eigenvector.x, sign * eigenvector.y, sign * eigenvector.z});
 }
 
