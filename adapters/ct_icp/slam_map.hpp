@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "adapters/common/host_map.hpp"
+#include "adapters/ct_icp/cloud.hpp"
 #include "nvm/normal/normal_estimator.hpp"
 
 /// CT-ICP takes these through OdometryOptions::map_options.
@@ -71,12 +72,7 @@ class NvmSlamMap final : public ct_icp::ISlamMap {
     }
     const Eigen::Vector3d origin =
         0.5 * (frame_poses.front().TrConstRef() + frame_poses.back().TrConstRef());
-    const auto copy = cloud.DeepCopyPtr();
-    copy->RegisterFieldsFromSchema();
-    if (!copy->HasWorldPoints()) {
-      copy->RawPointsToWorldPoints(frame_poses.front().pose);
-    }
-    insert(read(*copy), origin);
+    insert(world_points(cloud, frame_poses), origin);
     out_indices.resize(cloud.size());
     for (std::size_t i = 0; i < out_indices.size(); ++i) {
       out_indices[i] = i;
@@ -96,21 +92,7 @@ class NvmSlamMap final : public ct_icp::ISlamMap {
 
   std::size_t NumPoints() const override { return map_.size(); }
 
-  slam::PointCloudPtr MapAsPointCloud() const override {
-    auto cloud = slam::PointCloud::DefaultXYZPtr<double>();
-    cloud->resize(map_.size());
-    cloud->AddDefaultNormalsField();
-    cloud->SetWorldPointsField(slam::PointCloud::Field{cloud->GetXYZField()});
-    auto xyz = cloud->XYZ<double>();
-    auto normals = cloud->NormalsProxy<Eigen::Vector3d>();
-    std::size_t i = 0;
-    map_.for_each_point([&](const Eigen::Vector3d& position, const Eigen::Vector3f& normal) {
-      xyz[i] = position;
-      normals[i] = Eigen::Vector3d(normal.cast<double>());
-      ++i;
-    });
-    return cloud;
-  }
+  slam::PointCloudPtr MapAsPointCloud() const override { return to_cloud(map_); }
 
   /// The up to max_num_neighbors (-1 or more than 64: 64) nearest points within `radius` [m]; with
   /// a sensor location only those on the sides that are seen from there.
@@ -183,15 +165,6 @@ class NvmSlamMap final : public ct_icp::ISlamMap {
   }
 
  private:
-  static std::vector<Eigen::Vector3d> read(slam::PointCloud& cloud) {
-    auto world = cloud.WorldPointsProxy<Eigen::Vector3d>();
-    std::vector<Eigen::Vector3d> points(cloud.size());
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      points[i] = world[i];
-    }
-    return points;
-  }
-
   void insert(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& origin) {
     map_.set_view_point(origin);
     if (options_.host.normals.insert != NormalSource::kPoint) {

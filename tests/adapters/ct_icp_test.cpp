@@ -99,6 +99,19 @@ TEST(CtIcpMap, TheSensorLocationKeepsTheSidesOfAWallApart) {
   EXPECT_EQ(map->NumPoints(), 0U);
 }
 
+TEST(CtIcpMap, MovesRawPointsByThePosesOfTheirTimes) {
+  const auto map = make_map(NvmSlamMapOptions{});
+  slam::PointCloud cloud = cloud_of({{1, 0, 0}, {1, 0, 0}});
+  cloud.timestamps = {10.0, 11.0};
+  slam::Pose begin = pose_at({0, 0, 0}), end = pose_at({0, 4, 0});
+  begin.dest_timestamp = 10.0;
+  end.dest_timestamp = 12.0;
+  std::vector<std::size_t> selected;
+  map->InsertPointCloud(cloud, {begin, end}, selected);
+  EXPECT_EQ(map->RadiusSearch({1, 0, 0}, 0.1).points.size(), 1U);
+  EXPECT_EQ(map->RadiusSearch({1, 2, 0}, 0.1).points.size(), 1U);
+}
+
 TEST(CtIcpMap, AnswersInTheOrderAndTheFormsThatTheHostAsksFor) {
   NvmSlamMapOptions options;
   options.host = adapters::transparent_options(0.5);

@@ -2,13 +2,15 @@
 // Copyright (c) 2026 The nvm authors
 #pragma once
 
-// As much of CT-ICP's and SlamCore's headers as an adapter sees: the same names and signatures.
+// As much of CT-ICP's and SlamCore's headers as an adapter sees: the same names and signatures, as
+// of include/ct_icp/map.h in commit 0d91fc9 and what it includes.
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace slam {
@@ -21,7 +23,30 @@ struct SE3 {
 
 struct Pose {
   SE3 pose;
+  double dest_timestamp = -1.0;
   const Eigen::Vector3d& TrConstRef() const { return pose.tr; }
+};
+
+class LinearContinuousTrajectory {
+ public:
+  static LinearContinuousTrajectory Create(std::vector<Pose>&& poses) {
+    LinearContinuousTrajectory trajectory;
+    trajectory.poses_ = std::move(poses);
+    return trajectory;
+  }
+  /// Of two poses, without rotation: enough for a test.
+  Pose InterpolatePose(double timestamp) const {
+    const Pose& begin = poses_.front();
+    const Pose& end = poses_.back();
+    const double alpha =
+        (timestamp - begin.dest_timestamp) / (end.dest_timestamp - begin.dest_timestamp);
+    Pose pose;
+    pose.pose.tr = (1.0 - alpha) * begin.pose.tr + alpha * end.pose.tr;
+    return pose;
+  }
+
+ private:
+  std::vector<Pose> poses_;
 };
 
 struct WPoint3D {
@@ -54,6 +79,13 @@ class PointCloud {
   void SetWorldPointsField(Field&&) { world = raw; }
   void AddDefaultNormalsField() { normals.resize(raw.size()); }
   bool HasWorldPoints() const { return is_registered_ && !world.empty(); }
+  bool HasTimestamps() const { return is_registered_ && !timestamps.empty(); }
+  void RawPointsToWorldPoints(const LinearContinuousTrajectory& trajectory) {
+    world.clear();
+    for (std::size_t i = 0; i < raw.size(); ++i) {
+      world.push_back(trajectory.InterpolatePose(timestamps[i]).pose * raw[i]);
+    }
+  }
   void RawPointsToWorldPoints(const SE3& pose) {
     world.clear();
     for (const Eigen::Vector3d& point : raw) {
@@ -74,6 +106,7 @@ class PointCloud {
   }
 
   Column raw, world, normals;
+  std::vector<double> timestamps;
 
  private:
   Field field_;
@@ -82,7 +115,7 @@ class PointCloud {
 
 class IMap {
  public:
-  virtual ~IMap() = default;
+  virtual ~IMap() = 0;
   virtual void ClearMap() = 0;
   virtual void InsertPointCloud(const slam::PointCloud&, std::vector<size_t>&) = 0;
   virtual void RemoveElementsFarFromLocation(const Eigen::Vector3d& location, double distance) = 0;
@@ -91,6 +124,7 @@ class IMap {
   virtual std::vector<Neighborhood> ComputeNeighborhoods(
       const std::vector<Eigen::Vector3d>& queries, int max_num_neighbors) const = 0;
 };
+inline IMap::~IMap() = default;
 
 }  // namespace slam
 
@@ -104,6 +138,7 @@ class ISlamMap : public slam::IMap {
   virtual size_t NumPoints() const = 0;
   virtual slam::PointCloudPtr MapAsPointCloud() const = 0;
   virtual void UpdateTrajectory(const std::vector<slam::Pose>&) {}
+  virtual void UpdateTrajectory(const slam::LinearContinuousTrajectory&) {}
   virtual slam::Neighborhood RadiusSearch(
       const Eigen::Vector3d& query,
       double radius,
@@ -127,11 +162,12 @@ class ISlamMap : public slam::IMap {
 };
 
 struct IMapOptions {
-  virtual ~IMapOptions() = default;
+  virtual ~IMapOptions() = 0;
   virtual std::string GetType() const { return "INVALID_MAP"; }
   virtual std::shared_ptr<ct_icp::ISlamMap> MakeMapFromOptions() const {
     throw std::runtime_error("not implemented");
   }
 };
+inline IMapOptions::~IMapOptions() = default;
 
 }  // namespace ct_icp
