@@ -58,6 +58,10 @@ class NvmSlamMap final : public ct_icp::ISlamMap {
   }
 
   const HostMap& map() const noexcept { return map_; }
+  /// One line when the voxels are too small for points `spacing` [m] apart; else empty.
+  std::string density_warning(double spacing) const {
+    return adapters::density_warning(options_.host.map.voxel_size, spacing, 20);
+  }
 
   void ClearMap() override { map_.clear(); }
 

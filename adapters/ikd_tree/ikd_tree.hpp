@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iostream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -81,8 +82,12 @@ class IkdTree {
   /// The edge [m] of the cubes that the host keeps one point of.
   void set_downsample_param(float cube) { cube_ = cube; }
 
-  /// Replaces the contents. Throws std::invalid_argument when the options are out of range.
+  /// Replaces the contents. Writes density_warning() to the standard error output when there is
+  /// one. Throws std::invalid_argument when the options are out of range.
   void Build(const PointVector& points) {
+    if (const std::string warning = density_warning(); !warning.empty()) {
+      std::cerr << warning << '\n';
+    }
     HostOptions options = options_;
     options.map.voxel_size = voxel_size();
     map_.configure(options);

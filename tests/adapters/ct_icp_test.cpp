@@ -110,6 +110,8 @@ TEST(CtIcpMap, MovesRawPointsByThePosesOfTheirTimes) {
   map->InsertPointCloud(cloud, {begin, end}, selected);
   EXPECT_EQ(map->RadiusSearch({1, 0, 0}, 0.1).points.size(), 1U);
   EXPECT_EQ(map->RadiusSearch({1, 2, 0}, 0.1).points.size(), 1U);
+  EXPECT_EQ(NvmSlamMap({}).density_warning(0.1), "");
+  EXPECT_NE(NvmSlamMap({}).density_warning(0.3), "");
 }
 
 TEST(CtIcpMap, AnswersInTheOrderAndTheFormsThatTheHostAsksFor) {

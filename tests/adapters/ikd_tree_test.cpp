@@ -186,6 +186,9 @@ TEST(IkdTree, VoxelsFollowTheFilterSizeUnlessTheyAreGiven) {
   EXPECT_EQ(tree.density_warning(), "");
   tree.options().map.voxel_size = 0.3;
   EXPECT_THAT(tree.density_warning(), testing::HasSubstr("voxel_size = 0.3"));
+  testing::internal::CaptureStderr();
+  tree.Build({test::host_point({0, 0, 0})});
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), tree.density_warning() + "\n");
   tree.options().map.voxel_size = -1.0;
   EXPECT_THROW(tree.Build({}), std::invalid_argument);
 }
