@@ -65,9 +65,10 @@ class KissMap {
       const Eigen::Vector3d& query, const Eigen::Vector3d& origin) const {
     return closest(query, view_direction(query, origin));
   }
-  /// Adds points with unit normals, both in the map frame; a range of 3-vectors each.
+  /// Adds points with unit normals, both in the map frame; a range of 3-vectors each. Not another
+  /// AddPoints: the host's Python bindings take the address of that.
   template <class Normals>
-  void AddPoints(const Points& points, const Normals& normals) {
+  void AddPointsWithNormals(const Points& points, const Normals& normals) {
     map_.insert(points, normals);
   }
   const HostMap& map() const noexcept { return map_; }

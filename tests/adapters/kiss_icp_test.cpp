@@ -133,6 +133,41 @@ TEST(KissMap, TheOriginsOfScansKeepTheSidesOfAWallApart) {
   }
 }
 
+// The Python bindings take the addresses of members.
+TEST(KissMap, HasOneMemberOfEachNameThatTheBindingsTakeTheAddressOf) {
+  VoxelHashMap map(1.0, 10.0, 20);
+  const auto add = &VoxelHashMap::AddPoints;
+  (map.*add)({{0.5, 0.5, 0.5}});
+  bool (VoxelHashMap::*const empty)() const = &VoxelHashMap::Empty;
+  EXPECT_FALSE((map.*empty)());
+  const auto point_cloud = &VoxelHashMap::Pointcloud;
+  EXPECT_EQ((map.*point_cloud)().size(), 1U);
+  const auto remove = &VoxelHashMap::RemovePointsFarFromLocation;
+  (map.*remove)({100.0, 0.0, 0.0});
+  EXPECT_TRUE(map.Empty());
+  const auto clear = &VoxelHashMap::Clear;
+  (map.*clear)();
+}
+
+TEST(KissMap, NormalsOfPointsAreTakenFromWhereverTheyCome) {
+  std::mt19937_64 rng = test::rng();
+  const test::Cloud wall = test::thin_wall(2000, 0.05, rng);
+  VoxelHashMap map(0.5, 100.0, 20);
+  map.AddPointsWithNormals(wall.points, wall.normals);
+  for (std::size_t i = 0; i < wall.points.size(); i += 7) {
+    const auto [near, distance] =
+        map.GetClosestNeighbor(wall.points[i], wall.normals[i].cast<double>());
+    EXPECT_EQ(near.y() > test::kWallY, wall.points[i].y() > test::kWallY);
+    EXPECT_LT(distance, 0.5);
+  }
+  nvm::adapters::HostOptions options = map.options();
+  options.normals.query = nvm::adapters::NormalSource::kNone;
+  map.configure(options);
+  EXPECT_TRUE(map.Empty());
+  map.AddPointsWithNormals(wall.points, wall.normals);
+  EXPECT_LT(std::get<1>(map.GetClosestNeighbor(wall.points[0])), 0.01);
+}
+
 TEST(KissMap, EvictsClearsAndAnswersWhenEmptyAsTheHostDoes) {
   VoxelHashMap map(1.0, 10.0, 20);
   EXPECT_TRUE(map.Empty());

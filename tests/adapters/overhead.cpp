@@ -70,7 +70,7 @@ struct World {
     gated ? map.insert(cloud.points, cloud.normals) : map.insert_unsided(cloud.points);
     tree.Build(points);
     ivox.AddPoints(points);
-    kiss.AddPoints(cloud.points, cloud.normals);
+    kiss.AddPointsWithNormals(cloud.points, cloud.normals);
     ct_lio.add(cloud.points, cloud.normals);
   }
 };
@@ -170,7 +170,7 @@ const std::map<std::string, Work>& works() {
        [](World& w) { return w.map.insert(w.cloud.points, w.cloud.normals).stored; }},
       {"insert_kiss_icp",
        [](World& w) {
-         w.kiss.AddPoints(w.cloud.points, w.cloud.normals);
+         w.kiss.AddPointsWithNormals(w.cloud.points, w.cloud.normals);
          return w.kiss.map().size();
        }},
       {"insert_ct_lio",

@@ -7,6 +7,11 @@
 
 #include "adapters/kiss_icp/kiss_map.hpp"
 
+// The host's header brings this one along, and its pipeline relies on that.
+#if __has_include("VoxelUtils.hpp")
+#include "VoxelUtils.hpp"
+#endif
+
 namespace kiss_icp {
 
 struct VoxelHashMap : nvm::adapters::KissMap<Sophus::SE3d> {
