@@ -191,7 +191,8 @@ class MapArchive {
       read_surface(in, map, index, last_head);
       for (int surface = 1; surface < surfaces; ++surface) {
         check(!storage.chunks_exhausted(), "is corrupt: it holds more than its limits allow");
-        const std::uint32_t head = storage.create_surface(voxel);
+        const std::uint32_t head =
+            storage.create_surface(voxel, detail::wrap(detail::LatticePoint{index, {0, 0, 0}}));
         storage.link_surface(last_head, head);
         read_surface(in, map, index, head);
         last_head = head;

@@ -19,6 +19,7 @@
 #include "nvm/map/map_options.hpp"
 #include "nvm/map/map_point.hpp"
 #include "nvm/map/neighbor.hpp"
+#include "nvm/map/operations/answer.hpp"
 #include "nvm/map/operations/candidates.hpp"
 #include "nvm/map/operations/erasure.hpp"
 #include "nvm/map/operations/insertion.hpp"
@@ -248,12 +249,11 @@ class VoxelMap {
       return 0;
     }
     const std::int32_t limit = lattice_.sq_steps(search.max_distance) + 1;
-    const std::uint32_t brick =
-        context.find_brick(storage_, detail::index_key(detail::brick_index(point.voxel)));
-    const detail::NearestQuery<Gate> query(storage_, point, gate);
+    context.enter(storage_, detail::brick_index(point.voxel));
+    const detail::NearestQuery<Gate> query(storage_, point, gate, context.is_new_place());
     detail::Candidates found(wanted);
     for (std::int32_t reach = context.guess(wanted, limit);; reach = limit) {
-      query.collect(brick, reach, found);
+      query.collect(context.brick(), reach, found);
       if (found.count() >= wanted || reach == limit) {
         break;
       }
@@ -262,20 +262,8 @@ class VoxelMap {
     const int count = found.nearest(order.data());
     const auto last = static_cast<std::size_t>(std::max(count, 1) - 1);
     context.learn(wanted, count == wanted ? found.sq_distance(order[last]) : limit);
-    const detail::WrappedPoint from = detail::wrap(point);
-    const Eigen::Vector3d origin = detail::Lattice::steps(point);
-    const detail::PointChunk* chunks = storage_.chunks();
-    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-      const PointId id = found.id(order[i]);
-      const detail::PointChunk& chunk = chunks[id / detail::kLanes];
-      storage_.recency().use(chunk.voxel);
-      const Eigen::Vector3i offset =
-          detail::difference(chunk.wrapped(static_cast<int>(id % detail::kLanes)), from);
-      out[i] = {
-          (origin + offset.cast<double>()) * lattice_.meters_per_step(),
-          lattice_.sq_meters(found.sq_distance(order[i])),
-          id};
-    }
+    detail::Answer(storage_, lattice_, point)
+        .write(found, order.data(), static_cast<std::size_t>(count), out);
     return static_cast<std::size_t>(count);
   }
 

@@ -45,7 +45,7 @@ class Candidates {
       keep_nearest();
     }
     const int found = std::min(count_, wanted_);
-    if (!rank(found, order)) {
+    if (!rank(order)) {
       keep_nearest();
       std::iota(order, order + found, std::uint8_t{0});
     }
@@ -75,30 +75,30 @@ class Candidates {
  private:
   static constexpr int kMaxRanked = static_cast<int>(kMaxNeighbors);
 
-  /// order[r] = index of the candidate with r nearer ones, for r < found. Counting them needs no
-  /// branch that could be mispredicted, which beats a heap for the 8 to 64 candidates of a query.
-  /// False when some are equally near: they would have the same rank.
-  bool rank(int found, std::uint8_t* order) noexcept {
+  /// order[r] = index of the candidate with r nearer ones. Counting them needs no branch that could
+  /// be mispredicted, which beats a heap for the 8 to 64 candidates of a query. False when some are
+  /// equally near: they would have the same rank.
+  bool rank(std::uint8_t* order) noexcept {
     const IntLanes padding = IntLanes{} + std::numeric_limits<std::int32_t>::max();
     std::memcpy(&sq_distances_[count_], &padding, sizeof(padding));
     std::memcpy(&sq_distances_[count_ + kLanes], &padding, sizeof(padding));
-    std::uint64_t taken = 0;  // bit r: a candidate has rank r
-    for (int begin = 0; begin < count_; begin += 2 * kLanes) {
+    IntLanes sums{};
+    int ranked = 0;
+    for (; ranked < count_; ranked += 2 * kLanes) {
       alignas(32) std::array<std::int32_t, 2 * kLanes> ranks;
-      rank_two_blocks(begin, ranks.data());
-      const int end = std::min(begin + 2 * kLanes, count_);
-      for (int i = begin; i < end; ++i) {
-        const std::int32_t rank = ranks[static_cast<std::size_t>(i - begin)];
-        order[rank] = static_cast<std::uint8_t>(i);
-        taken |= std::uint64_t{1} << rank;
+      rank_two_blocks(ranked, ranks.data(), sums);
+      const int end = std::min(ranked + 2 * kLanes, count_);
+      for (int i = ranked; i < end; ++i) {
+        order[ranks[static_cast<std::size_t>(i - ranked)]] = static_cast<std::uint8_t>(i);
       }
     }
-    const std::uint64_t first_ranks =
-        found < 64 ? (std::uint64_t{1} << found) - 1 : ~std::uint64_t{0};
-    return (taken & first_ranks) == first_ranks;
+    // All candidates are nearer than the padding. Two of the same rank would lower the sum.
+    const int distinct = count_ * (count_ - 1) / 2 + (ranked - count_) * count_;
+    return sum_of(sums) == distinct;
   }
 
-  [[gnu::always_inline]] void rank_two_blocks(int begin, std::int32_t* ranks) const noexcept {
+  [[gnu::always_inline]] void rank_two_blocks(
+      int begin, std::int32_t* ranks, IntLanes& sums) const noexcept {
     IntLanes low;
     IntLanes high;
     std::memcpy(&low, &sq_distances_[begin], sizeof(low));
@@ -115,6 +115,7 @@ class Candidates {
     }
     std::memcpy(ranks, &low_ranks, sizeof(low_ranks));
     std::memcpy(ranks + kLanes, &high_ranks, sizeof(high_ranks));
+    sums += low_ranks + high_ranks;
   }
 
   alignas(32) std::int32_t sq_distances_[kRoom + 2 * kLanes];

@@ -70,7 +70,7 @@ std::uint32_t erase_from_surface(
   if (count == 0) {
     return kNone;
   }
-  const std::uint32_t surface = storage.create_surface(voxel);
+  const std::uint32_t surface = storage.create_surface(voxel, kept[0].position);
   std::uint32_t last = surface;
   for (std::size_t i = 0; i < count; ++i) {
     last = storage.append(surface, last, kept[i].position, kept[i].normal);

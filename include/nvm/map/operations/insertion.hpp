@@ -124,7 +124,7 @@ class Insertion {
     if (!make_room_for_chunk(voxel)) {
       return kNone;
     }
-    const std::uint32_t surface = storage_.create_surface(voxel);
+    const std::uint32_t surface = storage_.create_surface(voxel, chunks_[front].wrapped(0));
     storage_.link_surface(choice.surface, surface);
     return surface;
   }
@@ -175,11 +175,10 @@ class Insertion {
     }
     const LanePoint lanes(point);
     std::uint32_t last = head;
-    int left = size;
-    for (std::uint32_t id = head; id != kNone; id = chunks_[id].next, left -= kLanes) {
+    for (std::uint32_t id = head; id != kNone; id = chunks_[id].next) {
       IntLanes distances;
       sq_distances(chunks_[id], lanes, distances);
-      if ((lanes_below(distances, min_sq_steps_) & first_lanes(left)) != 0) {
+      if (lanes_below(distances, min_sq_steps_) != 0) {
         ++stats_.too_close;
         return;
       }
@@ -216,7 +215,7 @@ class Insertion {
         storage_.index_of(voxel),
         {step_in_voxel(point.x), step_in_voxel(point.y), step_in_voxel(point.z)}};
     Candidates found(1);
-    NearestQuery<Gate>(storage_, place, gate)
+    NearestQuery<Gate>(storage_, place, gate, false)
         .collect(storage_.brick_of(voxel), min_sq_steps_, found);
     return found.count() > 0;
   }

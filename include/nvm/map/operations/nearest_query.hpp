@@ -99,8 +99,11 @@ inline constexpr std::array<std::uint8_t, 8> kWindowBricks{
 template <class Gate>
 class NearestQuery {
  public:
-  NearestQuery(const VoxelStorage& storage, const LatticePoint& point, const Gate& gate)
+  /// `is_cold`: the query comes to another place than the one before.
+  NearestQuery(
+      const VoxelStorage& storage, const LatticePoint& point, const Gate& gate, bool is_cold)
       : storage_(storage),
+        is_cold_(is_cold),
         bricks_(storage.bricks()),
         chunks_(storage.chunks()),
         normals_(storage.normals()),
@@ -162,8 +165,8 @@ class NearestQuery {
       std::int32_t& limit,
       Candidates& found) const noexcept {
     cells &= brick.occupied;
-    // In a cold map the heads come in together, not one after the other's points.
-    for (std::uint64_t left = cells; left != 0; left &= left - 1) {
+    // The heads come in together, not one after the other's points.
+    for (std::uint64_t left = is_cold_ ? cells : 0; left != 0; left &= left - 1) {
       __builtin_prefetch(&chunks_[brick.head[static_cast<std::size_t>(__builtin_ctzll(left))]]);
     }
     for (; cells != 0; cells &= cells - 1) {
@@ -187,11 +190,10 @@ class NearestQuery {
       std::int32_t& limit,
       Candidates& found) const noexcept {
     const bool tests_points = gate_.tests_points(surface);
-    int left = surface.size;
-    for (std::uint32_t id = head; left > 0; id = chunks_[id].next, left -= kLanes) {
+    for (std::uint32_t id = head; id != kNone; id = chunks_[id].next) {
       IntLanes distances;
       sq_distances(chunks_[id], lanes_, distances);
-      std::uint32_t mask = lanes_below(distances, limit) & first_lanes(left);
+      std::uint32_t mask = lanes_below(distances, limit);
       if (tests_points && mask != 0) {
         mask &= gate_.facing(normals_[id]);
       }
@@ -206,6 +208,7 @@ class NearestQuery {
   }
 
   const VoxelStorage& storage_;
+  bool is_cold_;
   // Copied from it: behind a reference they would be read again after each candidate is stored.
   const Brick* bricks_;
   const PointChunk* chunks_;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -15,14 +16,20 @@ namespace nvm::detail {
 /// at similar distances. Only speed depends on it, never an answer; one per thread, for any maps.
 class VoxelQueryContext {
  public:
-  /// The brick with `key`, or kNone: the same as last time more often than not.
-  std::uint32_t find_brick(const VoxelStorage& storage, IndexKey key) noexcept {
-    if (!storage.is_brick(brick_, key)) {
-      brick_ = storage.find_brick(key);
-      storage.prefetch_brick(brick_);
+  /// Comes to a brick, which is one of the latest more often than not.
+  void enter(const VoxelStorage& storage, const VoxelIndex& index) noexcept {
+    const IndexKey key = index_key(index);
+    std::uint32_t& remembered = bricks_[slot(index)];
+    is_new_place_ = !storage.is_brick(remembered, key);
+    if (is_new_place_) {
+      remembered = storage.find_brick(key);
+      storage.prefetch_brick(remembered);
     }
-    return brick_;
+    brick_ = remembered;
   }
+  /// The brick, or kNone.
+  std::uint32_t brick() const noexcept { return brick_; }
+  bool is_new_place() const noexcept { return is_new_place_; }
 
   /// A squared distance that probably holds `wanted` neighbours, at most `limit`: a query that
   /// looks no farther skips most of the 27 voxels, and one that finds too few looks again without
@@ -50,7 +57,19 @@ class VoxelQueryContext {
   static constexpr float kSlack =
       2000.0F;  // 45 lattice steps, so that a mean of zero gets anywhere
 
+  static constexpr std::uint32_t kSlots = 64;
+
+  /// Strides that spread what a scan's rings see over the slots.
+  static std::uint32_t slot(const VoxelIndex& brick) noexcept {
+    const std::uint32_t mixed = static_cast<std::uint32_t>(brick.x()) +
+                                static_cast<std::uint32_t>(brick.y()) * 5U +
+                                static_cast<std::uint32_t>(brick.z()) * 29U;
+    return mixed % kSlots;
+  }
+
+  std::array<std::uint32_t, kSlots> bricks_{};  // any are allowed: each is checked
   std::uint32_t brick_ = kNone;
+  bool is_new_place_ = true;
   int wanted_ = 0;
   float mean_sq_distance_ = 0.0F;
 };

@@ -28,7 +28,7 @@ void for_each_id(const VoxelStorage& storage, std::uint32_t head, Visitor&& visi
 }
 
 inline WrappedPoint stored_point(const VoxelStorage& storage, PointId id) {
-  return storage.chunk(id / kLanes).wrapped(static_cast<int>(id % kLanes));
+  return storage.chunk(id / kLanes).wrapped(id % kLanes);
 }
 
 inline Eigen::Vector3i stored_step(const VoxelStorage& storage, PointId id) {

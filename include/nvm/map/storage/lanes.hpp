@@ -2,10 +2,10 @@
 // Copyright (c) 2026 The nvm authors
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 
 #include "nvm/map/storage/point_chunk.hpp"
 
@@ -67,8 +67,8 @@ struct LanePoint {
 #endif
 }
 
-/// Squared distances in lattice steps of the chunk's points to `query`, correct for points less
-/// than 4 voxels away in each axis; lanes without a point hold garbage.
+/// Squared distances in lattice steps, as unsigned numbers, of the chunk's lanes to `query`,
+/// correct for lanes at most 4 voxels away in each axis.
 [[gnu::always_inline]] inline void sq_distances(
     const PointChunk& chunk, const LanePoint& query, IntLanes& out) {
   WrappedPairs xy;
@@ -82,23 +82,26 @@ struct LanePoint {
   IntLanes sq_z;
   add_squares(reinterpret_cast<ShortPairs>(dxy), sq_xy);
   add_squares(reinterpret_cast<ShortPairs>(dz_and_zero), sq_z);
-  // Unsigned, because the garbage may overflow.
   out = reinterpret_cast<IntLanes>(
       reinterpret_cast<UnsignedLanes>(sq_xy) + reinterpret_cast<UnsignedLanes>(sq_z));
 }
 
-/// Bit i is set when values[i] < limit.
+/// Bit i is set when values[i], as an unsigned number, is below `limit`, which is not negative.
 [[gnu::always_inline]] inline std::uint32_t lanes_below(
     const IntLanes& values, std::int32_t limit) {
 #if defined(__AVX2__)
   __m256i v;
   std::memcpy(&v, &values, sizeof(v));
-  const __m256i below = _mm256_cmpgt_epi32(_mm256_set1_epi32(limit), v);
+  const __m256i sign = _mm256_set1_epi32(std::numeric_limits<std::int32_t>::min());
+  const __m256i below = _mm256_cmpgt_epi32(
+      _mm256_xor_si256(_mm256_set1_epi32(limit), sign), _mm256_xor_si256(v, sign));
   return static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_castsi256_ps(below)));
 #else
   std::uint32_t mask = 0;
   for (int lane = 0; lane < kLanes; ++lane) {
-    mask |= static_cast<std::uint32_t>(values[lane] < limit) << lane;
+    const bool is_below =
+        static_cast<std::uint32_t>(values[lane]) < static_cast<std::uint32_t>(limit);
+    mask |= static_cast<std::uint32_t>(is_below) << lane;
   }
   return mask;
 #endif
@@ -144,8 +147,13 @@ inline constexpr auto kSetBits = [] {
 #endif
 }
 
-/// Bit i is set for the first `count` lanes.
-inline std::uint32_t first_lanes(int count) { return 0xffU >> (kLanes - std::min(count, kLanes)); }
+[[gnu::always_inline]] inline std::int32_t sum_of(const IntLanes& values) {
+  std::int32_t sum = 0;
+  for (int lane = 0; lane < kLanes; ++lane) {
+    sum += values[lane];
+  }
+  return sum;
+}
 
 /// Bit i is set when values[i] > limit.
 [[gnu::always_inline]] inline std::uint32_t lanes_above(

@@ -33,9 +33,10 @@ struct WrappedPoint {
   std::int16_t x, y, z;
 };
 
-inline std::int32_t floor_to_int(double value) {
-  const auto truncated = static_cast<std::int32_t>(value);
-  return truncated - static_cast<std::int32_t>(value < truncated);
+template <class Integer = std::int32_t>
+Integer floor_to_int(double value) {
+  const auto truncated = static_cast<Integer>(value);
+  return truncated - static_cast<Integer>(value < static_cast<double>(truncated));
 }
 
 /// One coordinate of a point modulo 8 voxels.
@@ -67,15 +68,14 @@ class Lattice {
 
   /// The lattice point of `position` [m]; `out` is written only when the result is kInside.
   LatticeStatus locate(const Eigen::Vector3d& position, LatticePoint& out) const noexcept {
-    const Eigen::Vector3d scaled = position * voxels_per_meter_;
-    const LatticeStatus status = judge(scaled);
+    const LatticeStatus status = judge(position * voxels_per_meter_);
     if (status != LatticeStatus::kInside) {
       return status;
     }
     for (int axis = 0; axis < 3; ++axis) {
-      const std::int32_t floor = floor_to_int(scaled[axis]);
-      out.voxel[axis] = floor;
-      out.step[axis] = static_cast<std::int32_t>((scaled[axis] - floor) * kStepsPerVoxel);
+      const auto steps = floor_to_int<std::int64_t>(position[axis] * steps_per_meter_);
+      out.voxel[axis] = static_cast<std::int32_t>(steps >> kStepBits);
+      out.step[axis] = static_cast<std::int32_t>(steps & (kStepsPerVoxel - 1));
     }
     return LatticeStatus::kInside;
   }
@@ -96,10 +96,12 @@ class Lattice {
     return static_cast<float>(sq_steps) * sq_meters_per_sq_step_;
   }
 
-  /// The square of `meters` (not NaN) in lattice steps, rounded down and at most 2^30.
+  /// The square of `meters` (not NaN) in lattice steps, rounded down, but less than the farthest
+  /// that the 27 voxels around a query reach: 2 voxels along each axis.
   std::int32_t sq_steps(double meters) const noexcept {
     const double steps = meters * steps_per_meter_;
-    return static_cast<std::int32_t>(std::min(steps * steps, static_cast<double>(1 << 30)));
+    constexpr double kReach = 12.0 * kStepsPerVoxel * kStepsPerVoxel;
+    return static_cast<std::int32_t>(std::min(steps * steps, kReach - 1.0));
   }
 
  private:
@@ -116,12 +118,9 @@ inline WrappedPoint wrap(const LatticePoint& point) {
       wrap(point.voxel.z(), point.step.z())};
 }
 
-/// From `b` to `a` in steps; right when they are less than 4 voxels apart in each axis.
-inline Eigen::Vector3i difference(const WrappedPoint& a, const WrappedPoint& b) {
-  const auto wrapped = [](std::int16_t left, std::int16_t right) {
-    return static_cast<std::int16_t>(left - right);
-  };
-  return {wrapped(a.x, b.x), wrapped(a.y, b.y), wrapped(a.z, b.z)};
+/// From `b` to `a` in steps; right when they are less than 4 voxels apart.
+inline std::int32_t wrapped_difference(std::int16_t a, std::int16_t b) {
+  return static_cast<std::int16_t>(a - b);
 }
 
 /// The steps inside its voxel of a stored coordinate.

@@ -2,7 +2,9 @@
 // Copyright (c) 2026 The nvm authors
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "nvm/map/storage/lattice.hpp"
 #include "nvm/map/storage/pool.hpp"
@@ -15,7 +17,7 @@ inline constexpr int kLanes = 8;  // points in a chunk
 /// Eight points of one surface, in one cache line. The chunks of a surface form a list; its first
 /// chunk, the head, also says what a query must know of the surface before it reads a point, and
 /// links the heads of the voxel's surfaces, front first. All chunks of a surface but the last are
-/// full.
+/// full; lanes without a point lie where no query looks.
 struct alignas(64) PointChunk {
   std::int16_t xy[2 * kLanes];  // x0 y0 x1 y1 ...: interleaved, so that one instruction squares and
                                 // adds both
@@ -32,7 +34,17 @@ struct alignas(64) PointChunk {
     xy[2 * lane + 1] = point.y;
     z[lane] = point.z;
   }
-  WrappedPoint wrapped(int lane) const { return {xy[2 * lane], xy[2 * lane + 1], z[lane]}; }
+  /// Moves all lanes 4 voxels away from `inside`, a point of the voxel, along each axis: a query,
+  /// whose voxel is the same or next to it, has them more than 2 voxels away along each.
+  void clear_lanes(const WrappedPoint& inside) {
+    const auto away = [](std::int16_t coordinate) {
+      return static_cast<std::int16_t>(coordinate ^ std::numeric_limits<std::int16_t>::min());
+    };
+    for (int lane = 0; lane < kLanes; ++lane) {
+      set_position(lane, {away(inside.x), away(inside.y), away(inside.z)});
+    }
+  }
+  WrappedPoint wrapped(std::size_t lane) const { return {xy[2 * lane], xy[2 * lane + 1], z[lane]}; }
 };
 static_assert(sizeof(PointChunk) == 64);
 

@@ -45,9 +45,10 @@ class SurfaceStorage {
   std::size_t point_count() const noexcept { return point_count_; }
   bool chunks_exhausted() const noexcept { return chunk_ids_.exhausted(); }
 
-  /// An empty surface of `voxel`, not linked to the others yet. There must be room for a chunk.
-  std::uint32_t create_surface(std::uint32_t voxel) noexcept {
-    const std::uint32_t head = take_chunk(voxel);
+  /// An empty surface of `voxel`, which `inside` is a point of, not linked to the others yet. There
+  /// must be room for a chunk.
+  std::uint32_t create_surface(std::uint32_t voxel, const WrappedPoint& inside) noexcept {
+    const std::uint32_t head = take_chunk(voxel, inside);
     PointChunk& chunk = chunks_[head];
     chunk.next_surface = kNone;
     chunk.direction = {};
@@ -70,7 +71,7 @@ class SurfaceStorage {
     PointChunk& surface = chunks_[head];
     const int lane = surface.size % kLanes;
     if (lane == 0 && surface.size > 0) {
-      const std::uint32_t added = take_chunk(surface.voxel);
+      const std::uint32_t added = take_chunk(surface.voxel, point);
       chunks_[last].next = added;
       last = added;
     }
@@ -102,11 +103,12 @@ class SurfaceStorage {
   }
 
  private:
-  std::uint32_t take_chunk(std::uint32_t voxel) noexcept {
+  std::uint32_t take_chunk(std::uint32_t voxel, const WrappedPoint& inside) noexcept {
     const std::uint32_t id = chunk_ids_.take(chunk_link());
     NVM_ASSERT(id != kNone);
     chunks_[id].next = kNone;
     chunks_[id].voxel = voxel;
+    chunks_[id].clear_lanes(inside);
     return id;
   }
 

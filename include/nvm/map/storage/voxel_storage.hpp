@@ -237,7 +237,7 @@ class VoxelStorage : public SurfaceStorage {
       brick = create_brick(brick_index(index));
     }
     const std::uint32_t voxel = voxel_ids_.take(voxel_link());
-    const std::uint32_t head = create_surface(voxel);
+    const std::uint32_t head = create_surface(voxel, wrap(LatticePoint{index, {0, 0, 0}}));
     const auto cell = static_cast<std::uint32_t>(cell_in_brick(index));
     places_[voxel] = brick * kBrickCells + cell;
     bricks_[brick].head[cell] = head;
