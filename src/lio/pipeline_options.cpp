@@ -43,7 +43,7 @@ PipelineOptions::PipelineOptions() {
   map.points_per_surface = 30;
   inertial.normals.min_range = inertial.range.min_range;
   inertial.normals.max_range = inertial.range.max_range;
-  inertial.normals.max_linearity = 0.95;
+  inertial.normals.widening = 2.0;
   align.max_iterations = 10;
   align.converged_translation = 2e-4;
   align.converged_rotation = 5e-5;

@@ -55,6 +55,11 @@ void bind_normals(Schema& schema, NormalOptions& normals) {
   schema.add("max_radius", normals.max_radius, {0.001, 1000.0}, "Neighbourhood at max_range [m]");
   schema.add("min_range", normals.min_range, {0.0, 1e4}, "Where the radius begins to grow [m]");
   schema.add("max_range", normals.max_range, {0.0, 1e4}, "Where it stops to grow [m]");
+  schema.add(
+      "widening",
+      normals.widening,
+      {1.0, 10.0},
+      "Larger radius where neighbours are a line; 1: no");
   schema.add("min_neighbors", normals.min_neighbors, {3.0, 1e6}, "Points of a neighbourhood");
   schema.add("max_linearity", normals.max_linearity, {0.334, 1.0}, "First eigenvalue's share");
   schema.add(

@@ -78,6 +78,31 @@ TEST_P(PlaneProjection, TrustsNoSideThatABeamGrazes) {
   }
 }
 
+// A second wall across the end of the first.
+TEST_P(PlaneProjection, LetsNoCornerPullAWall) {
+  auto rng = test::rng();
+  DeskewedScan scan = wall(rng);
+  const std::size_t wall_points = scan.size();
+  for (std::size_t i = 0; i < wall_points; ++i) {
+    const Eigen::Vector3f p = scan.points[i];
+    scan.points.emplace_back(2.0F + p.y() - 1.0F, 1.0F + (p.x() - 2.0F), p.z());
+    scan.viewpoints.emplace_back(Eigen::Vector3f::Zero());
+    scan.ages.push_back(0.0F);
+  }
+  NormalEstimator normals = estimator();
+  const auto kept = project_to_planes(normals.estimate(scan.points, scan.viewpoints), 0.05, scan);
+  double sum = 0.0;
+  int count = 0;
+  for (std::size_t i = 0; i < wall_points; ++i) {
+    if (!kept[i].isZero() && scan.points[i].y() > 0.4F) {
+      sum += static_cast<double>(scan.points[i].x()) - 2.0;
+      ++count;
+    }
+  }
+  EXPECT_GT(count, 50);
+  EXPECT_LT(std::abs(sum / count), 0.2 * kNoise);
+}
+
 TEST_P(PlaneProjection, IsOffWithoutAnOffset) {
   auto rng = test::rng();
   DeskewedScan scan = wall(rng);

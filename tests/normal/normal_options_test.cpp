@@ -53,7 +53,8 @@ INSTANTIATE_TEST_SUITE_P(
             [](auto& o) { o.max_linearity = 0.3; }, "max_linearity = 0.3 must be above 1/3 to 1"},
         BadOption{
             [](auto& o) { o.max_surface_variation = 0.5; },
-            "max_surface_variation = 0.5 must be above 0 to 1/3"}));
+            "max_surface_variation = 0.5 must be above 0 to 1/3"},
+        BadOption{[](auto& o) { o.widening = 0.5; }, "widening = 0.5 must be 1 to 10"}));
 
 TEST(NormalOptions, DefaultsAreValid) { EXPECT_NO_THROW(NormalOptions().validate()); }
 

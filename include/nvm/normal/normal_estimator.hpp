@@ -4,7 +4,9 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <type_traits>
+#include <vector>
 
 #include "nvm/core/executor.hpp"
 #include "nvm/core/point_access.hpp"
@@ -149,8 +151,39 @@ class NormalEstimator {
     result_.plane_variances.assign(size, 0.0F);
   }
 
+  // With a second try, in a wider neighbourhood, where that makes sense.
   template <class Executor>
   void solve(const detail::SortedPoints& queries, NormalResult& result, const Executor& executor) {
+    solve_once(queries, result, executor);
+    if (options_.widening > 1.0) {
+      select_thin(queries, result.status);
+      solve_once(wider_, result, executor);
+    }
+  }
+
+  // The queries whose neighbours are a line or too few, with a wider radius, into wider_.
+  void select_thin(const detail::SortedPoints& queries, const std::vector<NormalStatus>& status) {
+    const auto sq_widening = static_cast<float>(options_.widening * options_.widening);
+    wider_.resize(queries.size());
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      const std::uint32_t index = queries.index[i];
+      if (status[index] == NormalStatus::kLineLike ||
+          status[index] == NormalStatus::kFewNeighbors) {
+        wider_.x[count] = queries.x[i];
+        wider_.y[count] = queries.y[i];
+        wider_.z[count] = queries.z[i];
+        wider_.sq_radius[count] = sq_widening * queries.sq_radius[i];
+        wider_.index[count] = index;
+        ++count;
+      }
+    }
+    wider_.resize(count);
+  }
+
+  template <class Executor>
+  void solve_once(
+      const detail::SortedPoints& queries, NormalResult& result, const Executor& executor) {
     switch (options_.method) {
       case NormalMethod::kBlockTree:
         return solve_with(
@@ -225,7 +258,7 @@ class NormalEstimator {
   detail::LocalPoints local_;
   std::vector<NormalStatus> cloud_status_;
   detail::SpatialSorter sorter_;
-  detail::SortedPoints cloud_, queries_;
+  detail::SortedPoints cloud_, queries_, wider_;
   detail::CellGrid grid_;
   detail::BlockTree tree_;
   NormalResult result_, cell_result_;

@@ -33,6 +33,10 @@ struct NormalOptions {
   /// Largest share of the third eigenvalue in the sum of the three, above 0 to 1/3: the surface
   /// variation. Rejects corners and clutter.
   double max_surface_variation = 0.03;
+  /// A point whose neighbours are a line or too few is tried again with a radius this many times as
+  /// large, 1 (never) to 10. The rings that a spinning LiDAR draws on a floor lie farther apart than
+  /// the radius that suits a wall at that range: each is a line there.
+  double widening = 1.0;
   NormalMethod method = NormalMethod::kBlockTree;
   /// With kPerCell: edge of a cell [m], 0.001 to 1000. A cell is a neighbour when its mean is
   /// within the radius, which is 1.5 cells at least.
@@ -66,6 +70,7 @@ struct NormalOptions {
         "max_surface_variation",
         max_surface_variation,
         "above 0 to 1/3");
+    require(widening >= 1.0 && widening <= 10.0, "widening", widening, "1 to 10");
     require(cell_size >= 0.001 && cell_size <= 1000.0, "cell_size", cell_size, "0.001 to 1000 [m]");
   }
 };
