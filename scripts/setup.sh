@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what nvm needs on Debian 12 (Ubuntu alike); takes no time when everything is there.
 #   scripts/setup.sh [--developer] [--pcl]
-#     --developer  also what formats, lints, documents and measures coverage
+#     --developer  also what formats, lints, documents, measures coverage and runs tests for ARM
 #     --pcl        also PCL, for the adapter and its comparison (large), and ROS, for the hosts' setting
 set -euo pipefail
 source "$(dirname "$0")/environment.sh"
@@ -21,7 +21,7 @@ packages=(
 )
 for option in "$@"; do
   case $option in
-    --developer) packages+=(clang clang-format clang-tidy doxygen gcovr dpkg-dev) ;;
+    --developer) packages+=(clang clang-format clang-tidy doxygen gcovr dpkg-dev g++-aarch64-linux-gnu qemu-user) ;;
     --pcl) packages+=(libpcl-dev libroscpp-dev libpcl-conversions-dev) ;;
     *) sed -n '2,5s/^# //p' "$0" && exit 2 ;;
   esac

@@ -1,0 +1,17 @@
+# Runs the commands in DIGESTS and fails unless all print the same. A command that this processor cannot run says so and is left
+# out.
+foreach(command IN LISTS DIGESTS)
+  separate_arguments(arguments UNIX_COMMAND "${command}")
+  execute_process(COMMAND ${arguments} OUTPUT_VARIABLE digest RESULT_VARIABLE result)
+  message(STATUS "${command}: ${digest}")
+  if(result EQUAL 77)
+    continue()
+  elseif(NOT result EQUAL 0)
+    message(FATAL_ERROR "${command} failed: ${result}")
+  endif()
+  if(NOT DEFINED expected)
+    set(expected "${digest}")
+  elseif(NOT digest STREQUAL expected)
+    message(FATAL_ERROR "${command} differs from the first")
+  endif()
+endforeach()
