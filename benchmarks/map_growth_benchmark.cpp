@@ -96,24 +96,32 @@ void insert_new(benchmark::State& state) {
   insert_scans<Map>(state, new_points());
 }
 
-/// insert_evicting: a full map walks on, so that each new voxel pushes one out.
-void insert_evicting(benchmark::State& state) {
+/// walk_on/<capacity>: the second half of a walk of 40 m, by when a map of the smaller capacities
+/// is full, so that each new voxel pushes one out: per point of raw scans. What eviction costs is
+/// the difference to the largest capacity, which nothing fills.
+void walk_on(benchmark::State& state) {
+  constexpr int kHalf = 200;
   MapOptions options = nvm_options();
   options.capacity = static_cast<std::size_t>(state.range(0));
-  VoxelMap map(options);
+  double seconds = 0.0;
   std::size_t points = 0;
   std::size_t evicted = 0;
   for (auto _ : state) {
-    for (const CorridorScan& scan : walk()) {
-      evicted += map.insert(scan.points, scan.normals, scan.T_map_scan).evicted_voxels;
-      points += scan.points.size();
+    VoxelMap map(options);
+    for (int i = 0; i < 2 * kHalf; ++i) {
+      const CorridorScan scan = Corridor::scan(i);
+      const double begin = cpu_seconds();
+      const InsertStats stats = map.insert(scan.points, scan.normals, scan.T_map_scan);
+      if (i >= kHalf) {
+        seconds += cpu_seconds() - begin;
+        points += scan.points.size();
+        evicted += stats.evicted_voxels;
+      }
     }
   }
   state.counters["evicted_per_1000_points"] =
       1e3 * static_cast<double>(evicted) / static_cast<double>(points);
-  state.counters["ns_per_point"] = benchmark::Counter(
-      static_cast<double>(points) * 1e-9,
-      benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["ns_per_point"] = 1e9 * seconds / static_cast<double>(points);
 }
 
 /// The patches of a field as scans, for any map.
@@ -127,28 +135,34 @@ CorridorScan patch_scan(std::size_t index) {
   return scan;
 }
 
-template <class Map>
-double random_query_ns(Map& map, std::size_t patches) {
-  constexpr std::size_t kQueries = 100'000;
+/// 100 scans' worth of queries, each scan's within a patch anywhere in the field, in random order.
+std::vector<Query> field_queries(std::size_t patches) {
+  constexpr std::size_t kScans = 100;
+  constexpr std::size_t kPerScan = 1000;
   std::mt19937_64 rng(3);
-  std::vector<Query> asked;
-  while (asked.size() < kQueries) {
+  std::vector<Query> queries;
+  for (std::size_t scan = 0; scan < kScans; ++scan) {
     const WallField::Patch patch = WallField::patch(rng() % patches);
-    for (std::size_t i = 0; i < kQueries / 100; ++i) {
+    for (std::size_t i = 0; i < kPerScan; ++i) {
       const std::size_t at = rng() % patch.points.size();
-      asked.push_back({patch.points[at] + Eigen::Vector3d(0.02, 0.01, 0.03), patch.normals[at]});
+      queries.push_back({patch.points[at] + Eigen::Vector3d(0.02, 0.01, 0.03), patch.normals[at]});
     }
   }
-  std::shuffle(asked.begin(), asked.end(), rng);
+  return queries;
+}
+
+template <class Map>
+double query5_ns(Map& map, const std::vector<Query>& queries) {
   const double begin = cpu_seconds();
-  for (const Query& query : asked) {
+  for (const Query& query : queries) {
     benchmark::DoNotOptimize(map.nearest(query, 5));
   }
-  return 1e9 * (cpu_seconds() - begin) / kQueries;
+  return 1e9 * (cpu_seconds() - begin) / static_cast<double>(queries.size());
 }
 
 /// grow<map>/<points>: a map grows in patches of 24 000 new points; the slowest patch, the mean per
-/// point, and 5 neighbours in random order once it is as large.
+/// point, and 5 neighbours once it is as large: scan by scan, and with all scans shuffled, so that
+/// no query comes near to the one before.
 template <class Map>
 void grow(benchmark::State& state) {
   const auto patches = static_cast<std::size_t>(state.range(0)) / WallField::kPatch + 1;
@@ -167,7 +181,10 @@ void grow(benchmark::State& state) {
     }
     state.counters["worst_patch_ms"] = 1e3 * worst;
     state.counters["ns_per_point"] = 1e9 * sum / static_cast<double>(patches * WallField::kPatch);
-    state.counters["query5_ns"] = random_query_ns(*map, patches);
+    std::vector<Query> queries = field_queries(patches);
+    state.counters["query5_ns"] = query5_ns(*map, queries);
+    std::shuffle(queries.begin(), queries.end(), std::mt19937_64(4));
+    state.counters["query5_shuffled_ns"] = query5_ns(*map, queries);
   }
 }
 
@@ -210,7 +227,12 @@ NVM_GROWTH_BENCHMARK(KissStyle);
 #ifdef NVM_BENCHMARK_SMALL_GICP
 NVM_GROWTH_BENCHMARK(SmallGicp);
 #endif
-BENCHMARK(insert_evicting)->Arg(5000)->Arg(1000000)->Unit(benchmark::kMillisecond);
+#ifdef NVM_BENCHMARK_KISS_ICP
+BENCHMARK_TEMPLATE(insert_raw, KissIcp)->Unit(benchmark::kMillisecond);
+BENCHMARK_TEMPLATE(insert_new, KissIcp)->Unit(benchmark::kMillisecond);
+#endif
+BENCHMARK(walk_on)->Arg(10'000)->Arg(20'000)->Arg(4'000'000)->Iterations(1)->Unit(
+    benchmark::kMillisecond);
 BENCHMARK(memory);
 BENCHMARK(save)->Unit(benchmark::kMillisecond);
 BENCHMARK(load)->Unit(benchmark::kMillisecond);

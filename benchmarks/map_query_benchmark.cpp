@@ -80,6 +80,9 @@ NVM_QUERY_BENCHMARK(Nanoflann);
 #ifdef NVM_BENCHMARK_SMALL_GICP
 NVM_QUERY_BENCHMARK(SmallGicp);
 #endif
+#ifdef NVM_BENCHMARK_KISS_ICP
+BENCHMARK_TEMPLATE(nearest, KissIcp)->Unit(benchmark::kNanosecond)->ArgsProduct({{1}, {0, 1}});
+#endif
 #ifdef NVM_BENCHMARK_PCL
 NVM_QUERY_BENCHMARK(PclKdTree);
 #endif

@@ -2,8 +2,8 @@
 // Copyright (c) 2026 The nvm authors
 
 // Normals of one scan of a simulated room, one thread, CPU time: nvm against nanoflann with the
-// same closed-form eigen solution and, where it is installed, PCL. Every baseline searches in the
-// order of the scan, as a user of that library would.
+// same closed-form eigen solution and, where they are installed, PCL and small_gicp. Every baseline
+// searches in the order of the scan, as a user of that library would.
 #include <benchmark/benchmark.h>
 
 #include <Eigen/Core>
@@ -20,6 +20,10 @@
 #include "nvm/normal/normal_estimator.hpp"
 #include "support/furnished_room.hpp"
 
+#ifdef NVM_BENCHMARK_SMALL_GICP
+#include <small_gicp/points/point_cloud.hpp>
+#include <small_gicp/util/normal_estimation.hpp>
+#endif
 #ifdef NVM_BENCHMARK_PCL
 #include <pcl/features/normal_3d_omp.h>
 #include <pcl/point_types.h>
@@ -151,6 +155,18 @@ void pcl_baseline(benchmark::State& state) {
 }
 #endif
 
+#ifdef NVM_BENCHMARK_SMALL_GICP
+/// Normals from 20 neighbours, its default.
+void small_gicp_baseline(benchmark::State& state) {
+  small_gicp::PointCloud cloud(scan_points(state.range(0)));
+  for (auto _ : state) {
+    small_gicp::estimate_normals(cloud, 20);
+    benchmark::DoNotOptimize(cloud.normals.data());
+  }
+  finish(state, cloud.size());
+}
+#endif
+
 // ns per matrix, in batches of 4096 as an estimator would have them.
 void eigen_batched(benchmark::State& state) {
   constexpr std::size_t kBatches = 4096 / kLaneCount;
@@ -209,6 +225,9 @@ BENCHMARK_CAPTURE(estimate, fixed_kd_tree, fixed_radius(), NormalMethod::kKdTree
 BENCHMARK_CAPTURE(nanoflann_baseline, fixed, fixed_radius())->Apply(scans);
 #ifdef NVM_BENCHMARK_PCL
 BENCHMARK(pcl_baseline)->Apply(scans);
+#endif
+#ifdef NVM_BENCHMARK_SMALL_GICP
+BENCHMARK(small_gicp_baseline)->Apply(scans);
 #endif
 BENCHMARK_CAPTURE(estimate, adaptive_block_tree, adaptive_radius(), NormalMethod::kBlockTree)
     ->Apply(scans);

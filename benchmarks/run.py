@@ -44,6 +44,11 @@ def ratio(records: dict, rival: str, ours: str, counter: str = "cpu_time"):
     return a / b if a is not None and b else None
 
 
+def difference(records: dict, costly: str, cheap: str, counter: str):
+    a, b = median(records.get(costly, []), counter), median(records.get(cheap, []), counter)
+    return a - b if a is not None and b is not None else None
+
+
 def count_instructions(program: Path):
     """Per gated query of 5 neighbours; nothing where valgrind is missing."""
     if not shutil.which("valgrind") or not program.exists():
@@ -71,6 +76,9 @@ def figures(records: dict, instructions) -> dict:
         "normals_radius_ratio_pcl": ratio(records, "pcl_baseline/0", "estimate/fixed_block_tree/0"),
         "normals_adaptive_ratio_nanoflann": ratio(records, "nanoflann_baseline/adaptive/0", "estimate/adaptive_block_tree/0"),
         "query_growth_1e4_1e7": ratio(records, "grow<Nvm>/10000000", "grow<Nvm>/10000", "query5_ns"),
+        "query_growth_shuffled_1e4_1e7": ratio(records, "grow<Nvm>/10000000", "grow<Nvm>/10000", "query5_shuffled_ns"),
+        "query20_ratio_small_gicp": ratio(records, f"nearest<SmallGicp>/20{scan_order}", f"nearest<Nvm>/20{scan_order}"),
+        "eviction_ns_per_point": difference(records, "walk_on/20000", "walk_on/4000000", per_point),
     }
 
 

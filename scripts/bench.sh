@@ -15,6 +15,20 @@ if [[ ! -d $rivals/small_gicp-1.0.1 ]]; then
   fi
 fi
 
-cmake --preset bench -D NVM_SMALL_GICP_INCLUDE="$(realpath $rivals/small_gicp-1.0.1/include 2>/dev/null || true)"
+# KISS-ICP's map: its source package fetches the C++ when it is built, so it comes from a checkout or its repository, as do
+# the headers that it needs.
+clone() { # repository, tag: into $rivals
+  [[ -d $rivals/$(basename "$1") ]] ||
+    GIT_TERMINAL_PROMPT=0 git clone --quiet --depth 1 --branch "$2" "https://github.com/$1" "$rivals/$(basename "$1")" 2>/dev/null
+}
+kiss_icp=${NVM_KISS_ICP_SOURCE:-$rivals/kiss-icp}
+sophus=${NVM_SOPHUS_INCLUDE:-$rivals/Sophus}
+[[ -d $kiss_icp && -d $sophus ]] || { clone PRBonn/kiss-icp v1.2.3 && clone strasdat/Sophus 1.24.6; } || {
+  echo "bench: KISS-ICP cannot be cloned (NVM_KISS_ICP_SOURCE and NVM_SOPHUS_INCLUDE name checkouts); its rows are left out"
+  kiss_icp=""
+}
+
+cmake --preset bench -D NVM_SMALL_GICP_INCLUDE="$(realpath $rivals/small_gicp-1.0.1/include 2>/dev/null || true)" \
+  -D NVM_KISS_ICP_SOURCE="${kiss_icp:+$(realpath "$kiss_icp")}" -D NVM_SOPHUS_INCLUDE="${kiss_icp:+$(realpath "$sophus")}"
 cmake --build --preset bench --target nvm_map_benchmark nvm_normals_benchmark nvm_query_probe
 python3 benchmarks/run.py "$@"

@@ -4,10 +4,12 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <nanoflann.hpp>
+#include <tuple>
 #include <vector>
 
 #include "nvm/map/voxel_map.hpp"
@@ -17,6 +19,9 @@
 #ifdef NVM_BENCHMARK_SMALL_GICP
 #include <small_gicp/ann/incremental_voxelmap.hpp>
 #include <small_gicp/points/point_cloud.hpp>
+#endif
+#ifdef NVM_BENCHMARK_KISS_ICP
+#include <kiss_icp/core/VoxelHashMap.hpp>
 #endif
 #ifdef NVM_BENCHMARK_PCL
 #include <pcl/kdtree/kdtree_flann.h>
@@ -147,6 +152,36 @@ struct SmallGicp {
   small_gicp::IncrementalVoxelMap<small_gicp::FlatContainerNormal> map;
   std::array<std::size_t, kMaxNeighbors> ids;
   std::array<double, kMaxNeighbors> sq_distances;
+};
+#endif
+
+#ifdef NVM_BENCHMARK_KISS_ICP
+/// The map of KISS-ICP, which answers with the nearest point only. Its spacing follows from the
+/// number of points in a voxel.
+struct KissIcp {
+  static constexpr double kFarAway = 1e9;
+
+  KissIcp()
+      : map(kVoxelSize,
+            kFarAway,
+            static_cast<unsigned>(std::lround(kVoxelSize * kVoxelSize / (kSpacing * kSpacing)))) {}
+  std::size_t insert(const CorridorScan& scan) {
+    points.clear();
+    for (const Eigen::Vector3f& point : scan.points) {
+      points.push_back(scan.T_map_scan * point.cast<double>());
+    }
+    map.AddPoints(points);
+    return 0;
+  }
+  std::size_t nearest(const Query& query, std::size_t) {
+    distance = std::get<double>(map.GetClosestNeighbor(query.point));
+    return 1;
+  }
+  double sq_distance(std::size_t) const { return distance * distance; }
+
+  kiss_icp::VoxelHashMap map;
+  std::vector<Eigen::Vector3d> points;
+  double distance = 0.0;
 };
 #endif
 
