@@ -99,6 +99,26 @@ TEST(CtIcpMap, TheSensorLocationKeepsTheSidesOfAWallApart) {
   EXPECT_EQ(map->NumPoints(), 0U);
 }
 
+TEST(CtIcpMap, StoresByTheSourceOfNormalsThatIsAskedFor) {
+  const std::vector<Eigen::Vector3d> lone{{1, 0, 0}, {9, 0, 0}};  // no planes
+  const auto stored = [&](adapters::NormalSource source, adapters::MissingNormal missing) {
+    NvmSlamMapOptions options;
+    options.host.normals.insert = source;
+    options.host.normals.missing = missing;
+    const auto map = make_map(options);
+    std::vector<std::size_t> selected;
+    map->InsertPointCloud(cloud_of(lone), selected);
+    return map->NumPoints();
+  };
+  using adapters::MissingNormal;
+  using adapters::NormalSource;
+  EXPECT_EQ(stored(NormalSource::kPoint, MissingNormal::kDrop), 0U);
+  EXPECT_EQ(stored(NormalSource::kPoint, MissingNormal::kUngated), 2U);
+  EXPECT_EQ(stored(NormalSource::kPoint, MissingNormal::kViewDirection), 2U);
+  EXPECT_EQ(stored(NormalSource::kViewDirection, MissingNormal::kDrop), 2U);
+  EXPECT_EQ(stored(NormalSource::kNone, MissingNormal::kDrop), 2U);
+}
+
 TEST(CtIcpMap, MovesRawPointsByThePosesOfTheirTimes) {
   const auto map = make_map(NvmSlamMapOptions{});
   slam::PointCloud cloud = cloud_of({{1, 0, 0}, {1, 0, 0}});

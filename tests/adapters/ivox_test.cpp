@@ -117,6 +117,28 @@ TEST(IVox, NormalsKeepTheSidesOfAWallApart) {
   }
 }
 
+TEST(IVox, AViewPointIsEnoughToKeepTheSidesApart) {
+  std::mt19937_64 rng = test::rng();
+  const test::Cloud wall = test::thin_wall(3000, 0.05, rng);
+  PointVector front, back;
+  for (std::size_t i = 0; i < wall.points.size(); ++i) {
+    (wall.normals[i].y() > 0.0F ? front : back).push_back(test::host_point(wall.points[i]));
+  }
+  Host host(18);
+  host.start();
+  host.ivox_->set_view_point(0.0, 4.0, 0.0);
+  host.add(front);
+  host.ivox_->set_view_point(0.0, -4.0, 0.0);
+  host.add(back);
+  PointVector closest;
+  for (const PointType& query : back) {
+    ASSERT_TRUE(host.ivox_->GetClosestPoint(query, closest, 5));
+    for (const PointType& found : closest) {
+      EXPECT_LT(found.y, test::kWallY);
+    }
+  }
+}
+
 TEST(IVox, AFailedQueryLeavesNoNeighborsOfAnEarlierOne) {
   Host host(6);
   host.start();
