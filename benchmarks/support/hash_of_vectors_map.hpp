@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "nvm/geometry/pose.hpp"
@@ -32,25 +33,11 @@ class HashOfVectorsMap {
 
   template <class Points>
   std::size_t insert(const Points& points, const Pose& T) {
-    std::size_t stored = 0;
+    const std::size_t before = size_;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const Eigen::Vector3d point = T * points[i].template cast<double>();
-      std::vector<Eigen::Vector3d>& voxel = voxels_[voxel_of(point)];
-      if (voxel.empty()) {
-        voxel.reserve(max_points_);
-      }
-      const bool rejected =
-          voxel.size() == max_points_ ||
-          std::any_of(voxel.begin(), voxel.end(), [&](const Eigen::Vector3d& other) {
-            return (other - point).squaredNorm() < sq_min_distance_;
-          });
-      if (!rejected) {
-        voxel.push_back(point);
-        ++stored;
-      }
+      insert(T * points[i].template cast<double>());
     }
-    size_ += stored;
-    return stored;
+    return size_ - before;
   }
 
   /// The `wanted` nearest points in the 27 voxels around, ascending.
@@ -103,6 +90,28 @@ class HashOfVectorsMap {
       return x * 73856093U ^ y * 19349669U ^ z * 83492791U;
     }
   };
+
+  void insert(const Eigen::Vector3d& point) {
+    const Eigen::Vector3i index = voxel_of(point);
+    const auto voxel = voxels_.find(index);
+    if (voxel == voxels_.end()) {
+      std::vector<Eigen::Vector3d> points;
+      points.reserve(max_points_);
+      points.push_back(point);
+      voxels_.insert({index, std::move(points)});
+      ++size_;
+      return;
+    }
+    std::vector<Eigen::Vector3d>& points = voxel.value();
+    const bool rejected = points.size() == max_points_ ||
+                          std::any_of(points.begin(), points.end(), [&](const auto& other) {
+                            return (other - point).squaredNorm() < sq_min_distance_;
+                          });
+    if (!rejected) {
+      points.push_back(point);
+      ++size_;
+    }
+  }
 
   Eigen::Vector3i voxel_of(const Eigen::Vector3d& point) const {
     return (point / voxel_size_).array().floor().cast<int>();
