@@ -130,6 +130,22 @@ TEST(Lru, NeverExceedsCapacityOrMemoryWhateverIsInserted) {
   EXPECT_LE(map.memory_bytes(), after_warm_up + after_warm_up / 10);
 }
 
+TEST(Lru, MemoryIsFlatOverAMillionEvictions) {
+  std::mt19937_64 rng = test::rng();
+  MapOptions options;
+  options.capacity = 5000;
+  VoxelMap map(options);
+  std::size_t evicted = 0;
+  std::size_t after_a_tenth = 0;
+  for (int scan = 0; evicted < 1'000'000; ++scan) {  // a walk through cluttered rooms
+    const test::Cloud cloud = test::uniform_cloud(3000, 3.0, {scan * 3.0, 0, 0}, rng);
+    evicted += map.insert(cloud.points, cloud.normals).evicted_voxels;
+    after_a_tenth = evicted < 100'000 ? map.memory_bytes() : after_a_tenth;
+    ASSERT_LE(map.voxel_count(), 5000U);
+  }
+  EXPECT_LE(map.memory_bytes(), after_a_tenth + after_a_tenth / 20);  // the ring of epochs fills
+}
+
 TEST(Lru, MaxBytesBoundsTheMapAndKeepsItWorking) {
   std::mt19937_64 rng = test::rng();
   for (const std::size_t max_bytes : {std::size_t{1} << 20, std::size_t{3} << 20}) {
