@@ -19,6 +19,8 @@ class ConstantVelocity {
   explicit ConstantVelocity(const StampedPose& first) : last_(first) {}
 
   const StampedPose& last() const { return last_; }
+  const Eigen::Vector3d& velocity() const { return velocity_; }  ///< [m/s], world
+  const Eigen::Vector3d& rate() const { return rate_; }          ///< [rad/s], body
 
   /// Takes the next pose; its time is later than the last one's.
   void add(const StampedPose& pose) {

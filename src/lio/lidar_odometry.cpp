@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The nvm authors
 #include "lio/lidar_odometry.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -10,6 +11,17 @@
 #include "nvm/core/require.hpp"
 
 namespace nvm::lio {
+
+namespace {
+
+/// Each makes the error of the motion within a sweep several times smaller; later ones no longer.
+constexpr int kRefinements = 2;
+
+bool is_sweep(const DeskewedScan& scan) {
+  return std::any_of(scan.ages.begin(), scan.ages.end(), [](float age) { return age > 0.0F; });
+}
+
+}  // namespace
 
 LidarOdometry::LidarOdometry(
     const LidarOdometryOptions& options, std::unique_ptr<LioMap> map, const Executor& executor)
@@ -54,7 +66,10 @@ void LidarOdometry::predict(const Scan& scan) {
       motion_.value_or(ConstantVelocity({scan.t_end, Pose::Identity()}));
   motion.sweep(scan.t_begin, scan.t_end, horizon, segments_);
   predicted_.time = scan.t_end;
-  predicted_.T_world_body = motion.at(scan.t_end, horizon).T_world_body;
+  const MotionSegment end = motion.at(scan.t_end, horizon);
+  predicted_.T_world_body = end.T_world_body;
+  predicted_.velocity = end.velocity;
+  predicted_.gyro_bias = -end.rate;  // as if a gyroscope had read zero
 }
 
 const LidarOdometry::Normals& LidarOdometry::prepare(const Scan& scan, FrameResult& result) {
@@ -70,12 +85,7 @@ const LidarOdometry::Normals& LidarOdometry::prepare(const Scan& scan, FrameResu
 
 void LidarOdometry::match(const Normals& normals, FrameResult& result) {
   const StageTimer timer(result.times.optimize);
-  key_points_.clear();
-  key_normals_.clear();
-  for (const std::uint32_t index : sampler_.sample(scan_.points, normals)) {
-    key_points_.push_back(scan_.points[index]);
-    key_normals_.push_back(normals[index]);
-  }
+  choose_keypoints(normals);
   result.keypoints = key_points_.size();
   result.T_map_lidar = predicted_.T_world_lidar();
   if (!motion_) {
@@ -84,13 +94,16 @@ void LidarOdometry::match(const Normals& normals, FrameResult& result) {
     result.message = enough ? "" : "the scan shows too few surfaces to begin with";
     return;
   }
-  const AlignResult aligned = align(normals);
+  AlignResult aligned = align(normals);
+  const int refinements = is_sweep(scan_) ? kRefinements : 0;
+  for (int i = 0; i < refinements && is_believable(aligned); ++i) {
+    aligned = refine(normals, aligned);
+  }
   result.residuals = aligned.counts.valid;
   result.residual_rms = aligned.rms_distance;
   result.degenerate_directions = aligned.degenerate_directions;
   result.iterations = aligned.iterations;
-  if (aligned.inlier_share() >= options_.min_inlier_share &&
-      aligned.status != AlignStatus::kTooFewResiduals) {
+  if (is_believable(aligned)) {
     result.status = FrameStatus::kTracking;
     result.T_map_lidar = aligned.T_map_scan;
     return;
@@ -98,6 +111,34 @@ void LidarOdometry::match(const Normals& normals, FrameResult& result) {
   const bool lost = result.time - motion_->last().time > options_.max_weak_duration;
   result.status = lost ? FrameStatus::kLost : FrameStatus::kWeak;
   result.message = "too little of the scan fits the map";
+}
+
+void LidarOdometry::choose_keypoints(const Normals& normals) {
+  key_points_.clear();
+  key_normals_.clear();
+  for (const std::uint32_t index : sampler_.sample(scan_.points, normals)) {
+    key_points_.push_back(scan_.points[index]);
+    key_normals_.push_back(normals[index]);
+  }
+}
+
+bool LidarOdometry::is_believable(const AlignResult& result) const {
+  return result.inlier_share() >= options_.min_inlier_share &&
+         result.status != AlignStatus::kTooFewResiduals;
+}
+
+// Deskews by the motion that an alignment has found instead of the one before, and aligns again.
+AlignResult LidarOdometry::refine(const Normals& normals, const AlignResult& first) {
+  ConstantVelocity found = *motion_;
+  found.add({predicted_.time, first.T_map_scan * options_.T_body_lidar.inverse()});
+  NavState corrected = predicted_;
+  corrected.T_world_body = found.last().pose;
+  corrected.velocity = found.velocity();
+  corrected.gyro_bias = -found.rate();
+  correct_deskew(predicted_, corrected, scan_);
+  predicted_ = corrected;
+  choose_keypoints(normals);
+  return aligner_.align(*map_, key_points_, key_normals_, first.T_map_scan, executor_);
 }
 
 // From the prediction; when that does not convince, from coarse starts, first near ones.

@@ -20,8 +20,9 @@
 namespace nvm::lio {
 
 /// Odometry from scans alone, scan to map: predict at constant velocity, deskew where points have
-/// times, estimate normals, align to the map, insert. A frame of which too little fits is aligned
-/// again from several coarse starts, so that sudden turns at a low scan rate are followed.
+/// times, estimate normals, align to the map, deskew by the motion found and align again, insert. A
+/// frame of which too little fits is aligned again from several coarse starts, so that sudden turns
+/// at a low scan rate are followed.
 class LidarOdometry final : public Pipeline {
  public:
   /// Throws std::invalid_argument for bad options.
@@ -39,7 +40,10 @@ class LidarOdometry final : public Pipeline {
   void predict(const Scan& scan);
   const Normals& prepare(const Scan& scan, FrameResult& result);
   void match(const Normals& normals, FrameResult& result);
+  void choose_keypoints(const Normals& normals);
   AlignResult align(const Normals& normals);
+  AlignResult refine(const Normals& normals, const AlignResult& first);
+  bool is_believable(const AlignResult& result) const;
   bool convinces(const AlignResult& result, const Pose& start) const;
   void insert(const Normals& normals, FrameResult& result);
 
