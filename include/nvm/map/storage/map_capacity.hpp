@@ -29,8 +29,7 @@ struct MapCapacity {
            BrickTable::max_bytes(bricks) + chunks * kBytesPerChunk;
   }
 
-  static constexpr std::size_t kBytesPerChunk =
-      sizeof(PointChunk) + sizeof(NormalChunk) + sizeof(PowerStep);
+  static constexpr std::size_t kBytesPerChunk = sizeof(PointChunk) + sizeof(NormalChunk);
 };
 
 /// Without a limit in bytes there is room for the worst case: each voxel in a brick of its own, all

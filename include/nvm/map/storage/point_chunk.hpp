@@ -8,6 +8,7 @@
 
 #include "nvm/map/storage/lattice.hpp"
 #include "nvm/map/storage/pool.hpp"
+#include "nvm/map/storage/principal_direction.hpp"
 #include "nvm/map/storage/stored_normal.hpp"
 
 namespace nvm::detail {
@@ -58,6 +59,7 @@ struct NormalChunk {
   std::int8_t x[kLanes];
   std::int8_t y[kLanes];
   std::int8_t z[kLanes];
+  PowerStep power_step;  // heads only
 
   void set(int lane, const StoredNormal& normal) {
     x[lane] = normal.x;

@@ -28,8 +28,7 @@ class SurfaceStorage {
   explicit SurfaceStorage(std::size_t capacity)
       : chunk_ids_(capacity),
         chunks_(allocate_uninitialized<PointChunk>(capacity)),
-        normals_(allocate_uninitialized<NormalChunk>(capacity)),
-        power_steps_(allocate_uninitialized<PowerStep>(capacity)) {}
+        normals_(allocate_uninitialized<NormalChunk>(capacity)) {}
 
   const PointChunk* chunks() const noexcept { return chunks_.get(); }
   const NormalChunk* normals() const noexcept { return normals_.get(); }
@@ -39,7 +38,7 @@ class SurfaceStorage {
   [[gnu::always_inline]] void prefetch_chunk(std::uint32_t head) const noexcept {
     __builtin_prefetch(&chunks_[head]);
     __builtin_prefetch(&normals_[head]);
-    __builtin_prefetch(&power_steps_[head]);
+    __builtin_prefetch(&normals_[head].power_step);
   }
   /// Points in all surfaces.
   std::size_t point_count() const noexcept { return point_count_; }
@@ -115,7 +114,7 @@ class SurfaceStorage {
   /// After `added` has joined the surface.
   void update_direction(std::uint32_t head, const StoredNormal& added) noexcept {
     PointChunk& surface = chunks_[head];
-    PowerStep& step = power_steps_[head];
+    PowerStep& step = normals_[head].power_step;
     if (surface.size == 1) {
       surface.direction = added;
       surface.tight = 1;
@@ -182,7 +181,6 @@ class SurfaceStorage {
   IndexAllocator chunk_ids_;
   RawArray<PointChunk> chunks_;
   RawArray<NormalChunk> normals_;
-  RawArray<PowerStep> power_steps_;  // of heads
   std::size_t point_count_ = 0;
 };
 
