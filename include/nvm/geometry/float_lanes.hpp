@@ -55,31 +55,22 @@ template <class Real>
 Real multiply_add(const Real& a, const Real& b, const Real& c) {
   return a * b + c;
 }
+#if defined(__FMA__) || (defined(__ARM_FEATURE_FMA) && defined(__ARM_NEON))
+template <>
+inline float multiply_add(const float& a, const float& b, const float& c) {
+  return std::fma(a, b, c);
+}
+template <>
+inline double multiply_add(const double& a, const double& b, const double& c) {
+  return std::fma(a, b, c);
+}
+template <>
+inline FloatLanes multiply_add(const FloatLanes& a, const FloatLanes& b, const FloatLanes& c) {
 #if defined(__FMA__)
-template <>
-inline float multiply_add(const float& a, const float& b, const float& c) {
-  return std::fma(a, b, c);
-}
-template <>
-inline double multiply_add(const double& a, const double& b, const double& c) {
-  return std::fma(a, b, c);
-}
-template <>
-inline FloatLanes multiply_add(const FloatLanes& a, const FloatLanes& b, const FloatLanes& c) {
   return _mm256_fmadd_ps(a, b, c);
-}
-#elif defined(__ARM_FEATURE_FMA) && defined(__ARM_NEON)
-template <>
-inline float multiply_add(const float& a, const float& b, const float& c) {
-  return std::fma(a, b, c);
-}
-template <>
-inline double multiply_add(const double& a, const double& b, const double& c) {
-  return std::fma(a, b, c);
-}
-template <>
-inline FloatLanes multiply_add(const FloatLanes& a, const FloatLanes& b, const FloatLanes& c) {
+#else
   return vfmaq_f32(c, a, b);
+#endif
 }
 #endif
 
