@@ -72,7 +72,7 @@ class VoxelMap {
   /// Inserts `points` with their `normals` (ranges of equal length, in the frame scan) at
   /// T_map_scan (Eq. 3): p_map = T p, n_map = R n. Normals have unit length and look at the sensor.
   /// Points that cannot be stored are counted, never an error. Throws std::invalid_argument when
-  /// the lengths differ or T_map_scan is not rigid. 10 to 50 ns per point.
+  /// the lengths differ or T_map_scan is not rigid. 15 to 60 ns per point.
   template <class Points, class Normals>
   InsertStats insert(
       const Points& points, const Normals& normals, const Pose& T_map_scan = Pose::Identity()) {
