@@ -35,6 +35,7 @@ bool MapBuilder::add(const lio::Scan& scan) {
   const NormalResult& result =
       normal_estimator_.estimate(scan_.points, scan_.viewpoints, executor_);
   map_->insert(scan_.points, result.normals, end_.T_world_lidar());
+  placed_.push_back({scan.t_end, *end});
   return true;
 }
 

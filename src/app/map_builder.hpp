@@ -25,11 +25,14 @@ class MapBuilder {
   bool add(const lio::Scan& scan);
 
   const lio::LioMap& map() const { return *map_; }
+  /// T_map_body at the ends of the scans that were added.
+  const Trajectory& placed() const { return placed_; }
 
  private:
   lio::RangeLimits range_;
   lio::NavState end_;
   Trajectory trajectory_;
+  Trajectory placed_;
   lio::Executor executor_;
   NormalEstimator normal_estimator_;
   std::unique_ptr<lio::LioMap> map_;

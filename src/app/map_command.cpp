@@ -64,22 +64,22 @@ void build_map(const MapArguments& arguments, RunOptions& options) {
   MapBuilder builder(options.pipeline, read_poses(arguments, options.input));
   make_output_folder(arguments.folder);
   std::size_t scans = 0;
-  std::size_t placed = 0;
   {
     ProgressBar progress(reader->info().scan_count);
     for (; const std::optional<lio::Scan> scan = reader->next_scan(); ++scans) {
-      placed += builder.add(*scan) ? 1 : 0;
+      builder.add(*scan);
       progress.step("");
     }
   }
-  if (placed == 0) {
+  if (builder.placed().empty()) {
     io::fail(arguments.poses, "has no pose at the time of any scan");
   }
   write_map_files(builder.map(), arguments.folder);
+  io::write_tum(arguments.folder + "/trajectory.tum", builder.placed());
   fmt::print(
       "{}: {} of {} scans placed, {} map points\n",
       arguments.folder,
-      placed,
+      builder.placed().size(),
       scans,
       builder.map().size());
 }
@@ -94,7 +94,7 @@ void add_map_command(CLI::App& app) {
       "--poses",
       arguments->poses,
       "TUM file, or KITTI file with a line per scan: the pose of the body at each scan's end");
-  command->add_option("--out", arguments->folder, "Folder of map.ply and map.nvm");
+  command->add_option("--out", arguments->folder, "Folder of map.ply, map.nvm and trajectory.tum");
   add_run_options(*command, arguments->options);
   command->callback([arguments] {
     std::optional<RunOptions> options = read_run_options(arguments->options);

@@ -180,6 +180,7 @@ TEST_F(ProgramTest, MapFromPosesInfoAndExport) {
             " --set normals.min_radius=0.4 --set normals.max_radius=0.6");
     ASSERT_EQ(outcome.status, 0) << outcome.errors;
     EXPECT_THAT(outcome.output, HasSubstr("5 of 5 scans"));
+    EXPECT_EQ(io::read_tum(path("map/trajectory.tum")).size(), 5U);
   }
   const io::MapCloud written = io::read_map_cloud(path("map/map.ply"));
   const std::size_t points = written.positions.size();
