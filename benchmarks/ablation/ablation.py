@@ -39,7 +39,7 @@ def parse_arguments() -> argparse.Namespace:
     parser.add_argument("--sensors", nargs="+", default=SENSORS, choices=SENSORS)
     parser.add_argument("--seeds", nargs="+", type=int, default=TEST_SEEDS)
     parser.add_argument("--setting", default="plain", choices=list(SETTINGS))
-    parser.add_argument("--pipelines", nargs="+", default=PIPELINES, choices=PIPELINES)
+    parser.add_argument("--pipelines", nargs="+", default=list(PIPELINES), choices=list(PIPELINES))
     parser.add_argument("--maps", nargs="+", default=list(MAPS), choices=list(MAPS))
     parser.add_argument("--duration", type=float, default=0.0, help="[s]; 0: the whole route")
     parser.add_argument("--jobs", type=int, default=1, help="runs at once; more make times less certain")

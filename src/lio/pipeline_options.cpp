@@ -6,6 +6,7 @@
 
 #include "lio/aligned_matcher.hpp"
 #include "lio/continuous_matcher.hpp"
+#include "lio/coupled_matcher.hpp"
 #include "lio/filter_matcher.hpp"
 #include "lio/lidar_odometry.hpp"
 
@@ -17,6 +18,10 @@ std::unique_ptr<ScanMatcher> make_matcher(
     const PipelineOptions& options, const Executor& executor) {
   switch (options.type) {
     case PipelineType::kCtLio:
+      if (options.coupling == Coupling::kTight) {
+        return std::make_unique<CoupledMatcher>(
+            options.align, options.residual_deviation, executor);
+      }
       return std::make_unique<AlignedMatcher>(options.align, options.observation, executor);
     case PipelineType::kCtLioContinuous:
       return std::make_unique<ContinuousMatcher>(options.align, options.observation, executor);

@@ -20,9 +20,15 @@ namespace nvm::lio {
 enum class PipelineType {
   kAutomatic,        ///< fast_lio with an IMU, lidar_only without; see resolve()
   kFastLio,          ///< iterated Kalman filter, tightly coupled
-  kCtLio,            ///< scan-to-map optimisation, one pose per scan, loosely coupled
+  kCtLio,            ///< scan-to-map optimisation, one pose per scan
   kCtLioContinuous,  ///< the same with a pose at the scan's begin and one at its end
   kLidarOnly,        ///< constant velocity, no IMU
+};
+
+/// How a scan-to-map optimisation and the IMU come together.
+enum class Coupling {
+  kTight,  ///< the IMU's prediction is part of the optimisation
+  kLoose,  ///< the filter takes the optimised pose as an observation, as in CT-LIO
 };
 
 /// All that a run can configure.
@@ -32,10 +38,13 @@ struct PipelineOptions {
   MapType map_type = MapType::kNvm;
   MapOptions map;
   InertialOptions inertial;
-  MeasurementOptions measurement;  ///< fast_lio
-  IterationOptions iteration;      ///< fast_lio
-  AlignOptions align;              ///< ct_lio
-  PoseObservation observation;     ///< ct_lio
+  MeasurementOptions measurement;        ///< fast_lio
+  IterationOptions iteration;            ///< fast_lio
+  AlignOptions align;                    ///< ct_lio
+  Coupling coupling = Coupling::kTight;  ///< ct_lio; ct_lio_continuous is loosely coupled
+  /// ct_lio, tightly coupled: of a point from its plane [m], positive.
+  double residual_deviation = 0.01;
+  PoseObservation observation;  ///< loosely coupled
   /// Its own part only: what it shares with the inertial pipelines comes from `inertial`.
   LidarOdometryOptions lidar_only;
 

@@ -149,9 +149,16 @@ void bind_align(Schema& schema, AlignOptions& align) {
 
 void bind_optimization(Schema& schema, PipelineOptions& options) {
   bind_align(schema, options.align);
+  schema.add_choice<Coupling>(
+      "coupling",
+      options.coupling,
+      {{"tight", Coupling::kTight}, {"loose", Coupling::kLoose}},
+      "Of optimisation and IMU; ct_lio_continuous: loose");
+  schema.add(
+      "residual_deviation", options.residual_deviation, kPositive, "With coupling: tight [m]");
   PoseObservation& observation = options.observation;
-  schema.add("translation_deviation", observation.translation_deviation, kPositive, "[m]");
-  schema.add("rotation_deviation", observation.rotation_deviation, kPositive, "[rad]");
+  schema.add("translation_deviation", observation.translation_deviation, kPositive, "Loose [m]");
+  schema.add("rotation_deviation", observation.rotation_deviation, kPositive, "Loose [rad]");
 }
 
 void bind_lidar_only(Schema& schema, LidarOdometryOptions& lidar_only) {

@@ -44,9 +44,8 @@ void expect_back_on_track(const RoomRecording& recording, const std::vector<Fram
 using Combination = std::tuple<PipelineType, MapType>;
 class EveryInertialPipeline : public ::testing::TestWithParam<Combination> {};
 
-TEST_P(EveryInertialPipeline, TracksARoomToMillimetres) {
-  const auto [type, map] = GetParam();
-  const auto pipeline = make_pipeline(options_for(type, map));
+void expect_millimetres(const PipelineOptions& options) {
+  const auto pipeline = make_pipeline(options);
   RoomRecording recording;
   recording.duration = 4.0;
   double worst = 0.0;
@@ -60,6 +59,23 @@ TEST_P(EveryInertialPipeline, TracksARoomToMillimetres) {
   EXPECT_EQ(count(results, FrameStatus::kWeak), 0U);
   EXPECT_LT(worst, 0.012);
   EXPECT_GT(pipeline->map().size(), 1000U);
+}
+
+TEST_P(EveryInertialPipeline, TracksARoomToMillimetres) {
+  const auto [type, map] = GetParam();
+  expect_millimetres(options_for(type, map));
+}
+
+TEST(ScanToMapOptimisation, TracksARoomLooselyCoupledToo) {
+  PipelineOptions options = options_for(PipelineType::kCtLio);
+  options.coupling = Coupling::kLoose;
+  expect_millimetres(options);
+}
+
+TEST(ScanToMapOptimisation, RefusesABadDeviation) {
+  PipelineOptions options = options_for(PipelineType::kCtLio);
+  options.residual_deviation = 0.0;
+  EXPECT_THROW(make_pipeline(options), std::invalid_argument);
 }
 
 INSTANTIATE_TEST_SUITE_P(
