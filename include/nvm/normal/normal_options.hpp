@@ -34,8 +34,8 @@ struct NormalOptions {
   /// variation. Rejects corners and clutter.
   double max_surface_variation = 0.03;
   /// A point whose neighbours are a line or too few is tried again with a radius this many times as
-  /// large, 1 (never) to 10. The rings that a spinning LiDAR draws on a floor lie farther apart than
-  /// the radius that suits a wall at that range: each is a line there.
+  /// large, 1 (never) to 10. The rings that a spinning LiDAR draws on a floor lie farther apart
+  /// than the radius that suits a wall at that range: each is a line there.
   double widening = 1.0;
   NormalMethod method = NormalMethod::kBlockTree;
   /// With kPerCell: edge of a cell [m], 0.001 to 1000. A cell is a neighbour when its mean is
