@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "lio/keypoints.hpp"
 #include "nvm/core/require.hpp"
 
 namespace nvm::lio {
@@ -15,12 +16,8 @@ AlignedMatcher::AlignedMatcher(
 }
 
 MatchResult AlignedMatcher::match(const LioMap& map, PreparedScan& scan, ErrorStateFilter& filter) {
-  points_.clear();
-  normals_.clear();
-  for (const std::uint32_t index : scan.keypoints) {
-    points_.push_back(scan.scan.points[index]);
-    normals_.push_back(scan.normals[index]);
-  }
+  pick(scan.scan.points, scan.keypoints, points_);
+  pick(scan.normals, scan.keypoints, normals_);
   const AlignResult aligned =
       aligner_.align(map, points_, normals_, filter.state().T_world_lidar(), executor_);
   MatchResult result;

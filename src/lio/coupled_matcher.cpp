@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lio/degeneracy.hpp"
+#include "lio/keypoints.hpp"
 #include "nvm/core/require.hpp"
 
 namespace nvm::lio {
@@ -36,12 +37,8 @@ CoupledMatcher::CoupledMatcher(
 }
 
 MatchResult CoupledMatcher::match(const LioMap& map, PreparedScan& scan, ErrorStateFilter& filter) {
-  points_.clear();
-  normals_.clear();
-  for (const std::uint32_t index : scan.keypoints) {
-    points_.push_back(scan.scan.points[index]);
-    normals_.push_back(scan.normals[index]);
-  }
+  pick(scan.scan.points, scan.keypoints, points_);
+  pick(scan.normals, scan.keypoints, normals_);
   // What a residual says changes with its plane: each iteration associates anew.
   const auto linearize_at = [&](const NavState& state, bool, Information& out) {
     return linearize(map, state, out);

@@ -180,12 +180,8 @@ void InertialPipeline::prepare(const Scan& scan, FrameResult& result) {
 void InertialPipeline::match(FrameResult& result) {
   const StageTimer timer(result.times.optimize);
   prepared_.keypoints = sampler_.sample(prepared_.scan.points, prepared_.normals);
-  key_points_.clear();
-  key_normals_.clear();
-  for (const std::uint32_t index : prepared_.keypoints) {
-    key_points_.push_back(prepared_.scan.points[index]);
-    key_normals_.push_back(prepared_.normals[index]);
-  }
+  pick(prepared_.scan.points, prepared_.keypoints, key_points_);
+  pick(prepared_.normals, prepared_.keypoints, key_normals_);
   result.points = prepared_.scan.size();
   result.keypoints = prepared_.keypoints.size();
   if (map_->size() == 0) {

@@ -54,4 +54,14 @@ void KeypointOptions::validate() const {
   require(max_count >= 10 && max_count <= 100'000, "max_keypoints", max_count, "10 to 100000");
 }
 
+void pick(
+    const std::vector<Eigen::Vector3f>& all,
+    const std::vector<std::uint32_t>& indices,
+    std::vector<Eigen::Vector3f>& picked) {
+  picked.clear();
+  for (const std::uint32_t index : indices) {
+    picked.push_back(all[index]);
+  }
+}
+
 }  // namespace nvm::lio

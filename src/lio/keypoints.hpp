@@ -38,4 +38,10 @@ class KeypointSampler {
   std::vector<std::uint32_t> chosen_;
 };
 
+/// Makes `picked` the elements of `all` at `indices`.
+void pick(
+    const std::vector<Eigen::Vector3f>& all,
+    const std::vector<std::uint32_t>& indices,
+    std::vector<Eigen::Vector3f>& picked);
+
 }  // namespace nvm::lio

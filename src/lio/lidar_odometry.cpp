@@ -114,12 +114,9 @@ void LidarOdometry::match(const Normals& normals, FrameResult& result) {
 }
 
 void LidarOdometry::choose_keypoints(const Normals& normals) {
-  key_points_.clear();
-  key_normals_.clear();
-  for (const std::uint32_t index : sampler_.sample(scan_.points, normals)) {
-    key_points_.push_back(scan_.points[index]);
-    key_normals_.push_back(normals[index]);
-  }
+  const std::vector<std::uint32_t>& keypoints = sampler_.sample(scan_.points, normals);
+  pick(scan_.points, keypoints, key_points_);
+  pick(normals, keypoints, key_normals_);
 }
 
 bool LidarOdometry::is_believable(const AlignResult& result) const {
