@@ -211,5 +211,31 @@ TEST(Nearest, FindsNothingForBadInput) {
       kMaxNeighbors);
 }
 
+TEST(Nearest, NeverAnswersWithALaneThatHoldsNoPoint) {
+  std::mt19937_64 rng = test::rng();
+  constexpr double kVoxel = 0.3;
+  MapOptions options;
+  options.voxel_size = kVoxel;
+  VoxelMap map(options);
+  VoxelMap::QueryContext context;
+  std::array<Neighbor, kMaxNeighbors> found;
+  for (int round = 0; round < 5000; ++round) {
+    // Voxel and query at either end of each axis, or anywhere between: all that 27 voxels allow.
+    Eigen::Vector3d point;
+    Eigen::Vector3d query;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto place = [&] { return (0.5 + static_cast<double>(rng() % 8191)) / 8192.0; };
+      const double voxel = static_cast<double>(rng() % 2000) - 1000.0;
+      point[axis] = kVoxel * (voxel + (rng() % 2 == 0 ? 1e-6 : place()));
+      query[axis] = kVoxel * (voxel + static_cast<double>(rng() % 3) - 1.0 +
+                              (rng() % 2 == 0 ? 1.0 - 1e-6 : place()));
+    }
+    map.clear();
+    map.insert_unsided(std::array<Eigen::Vector3d, 1>{point});
+    ASSERT_EQ(map.nearest(query, {20, 1e300, Gate::kSurfaces}, found.data(), context), 1U);
+    ASSERT_NEAR(found[0].sq_distance, (point - query).squaredNorm(), 2e-4);
+  }
+}
+
 }  // namespace
 }  // namespace nvm

@@ -54,7 +54,6 @@ class VoxelStorage : public SurfaceStorage {
       __builtin_prefetch(reinterpret_cast<const char*>(&bricks_[id]) + line);
     }
   }
-  const Brick& brick(std::uint32_t id) const noexcept { return bricks_[id]; }
 
   /// Head chunk of the front surface in a cell of a brick (or none); kNone when there is no voxel.
   std::uint32_t head_in(std::uint32_t brick, int cell) const noexcept {
