@@ -5,19 +5,16 @@
 #include <gmock/gmock.h>
 
 #include <Eigen/Geometry>
-#include <array>
-#include <cmath>
 #include <limits>
 #include <random>
-#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "normal/scans.hpp"
 #include "nvm/core/executor_openmp.hpp"
 #include "nvm/core/executor_tbb.hpp"
 #include "nvm/core/thread_sanitizer.hpp"
-#include "support/furnished_room.hpp"
 #include "support/rng.hpp"
 
 namespace nvm {
@@ -25,35 +22,6 @@ namespace {
 
 using Eigen::Vector3d;
 using Eigen::Vector3f;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-test::TrueScan room_scan(std::mt19937_64& rng, double noise = 0.01) {
-  return test::FurnishedRoom(7.0, rng).scan(test::spinning_directions(16, 500), noise, rng);
-}
-
-// A square of 1 m across the x axis at x = `range`, a point every 5 cm.
-std::vector<Vector3d> wall(double range) {
-  std::vector<Vector3d> points;
-  for (int y = -10; y <= 10; ++y) {
-    for (int z = -10; z <= 10; ++z) {
-      points.emplace_back(range, 0.05 * y, 0.05 * z);
-    }
-  }
-  return points;
-}
-
-NormalOptions fixed_radius(double radius) {
-  NormalOptions options;
-  options.min_radius = options.max_radius = radius;
-  return options;
-}
-
-void expect_same_bits(const NormalResult& a, const NormalResult& b) {
-  EXPECT_EQ(a.status, b.status);
-  EXPECT_EQ(a.normals, b.normals);
-}
 
 class NormalEstimation : public ::testing::TestWithParam<NormalMethod> {
  protected:
@@ -332,83 +300,6 @@ TEST_P(ExactNormalEstimation, OfRingsOnAFloorNeedsWidening) {
   for (const Vector3f& normal : widened.normals) {
     EXPECT_LT((normal - Vector3f::UnitZ()).norm(), 1e-3F);
   }
-}
-
-TEST(NormalMethods, AgreeOnEveryStatusOfARoom) {
-  std::mt19937_64 rng = test::rng();
-  const test::TrueScan scan = room_scan(rng);
-  NormalOptions options;
-  const NormalResult blocks = estimate_normals(scan.points, Vector3d(0, 0, 0), options);
-  options.method = NormalMethod::kKdTree;
-  const NormalResult reference = estimate_normals(scan.points, Vector3d(0, 0, 0), options);
-  std::size_t differ = 0;  // where a threshold is met to the last bits
-  for (std::size_t i = 0; i < scan.points.size(); ++i) {
-    if (blocks.status[i] != reference.status[i]) {
-      ++differ;
-    } else {
-      EXPECT_LT((blocks.normals[i] - reference.normals[i]).norm(), 1e-3F);
-    }
-  }
-  EXPECT_LE(differ, 2U);
-}
-
-TEST(NormalsPerCell, AreSharedByThePointsOfACell) {
-  std::mt19937_64 rng = test::rng();
-  const test::TrueScan scan = room_scan(rng);
-  NormalOptions options;
-  options.method = NormalMethod::kPerCell;
-  const NormalResult result = estimate_normals(scan.points, Vector3d(0, 0, 0), options);
-  std::set<std::array<float, 3>> distinct;
-  for (const Vector3f& normal : result.normals) {
-    const Vector3f axis = normal.x() < 0.0F ? Vector3f(-normal) : normal;
-    distinct.insert({axis.x(), axis.y(), axis.z()});
-  }
-  EXPECT_LT(distinct.size(), result.stats.valid / 2);
-}
-
-TEST(NormalsPerCell, AreGivenAtQueriesToo) {
-  NormalOptions options;
-  options.method = NormalMethod::kPerCell;
-  NormalEstimator estimator(options);
-  const std::vector<Vector3d> queries{{2.01, 0.0, 0.0}, {2.0, 0.3, 0.1}, {9.0, 0.0, 0.0}};
-  const NormalResult& result = estimator.estimate_at(queries, wall(2.0), Vector3d(0, 0, 0));
-  EXPECT_NEAR(result.normals[0].x(), -1.0F, 1e-5F);
-  EXPECT_NEAR(result.normals[1].x(), -1.0F, 1e-5F);
-  EXPECT_EQ(result.status[2], NormalStatus::kFewNeighbors);
-}
-
-TEST(NormalsOfDenseClouds, AreBoundedInWork) {
-  std::mt19937_64 rng = test::rng();
-  std::normal_distribution<double> spot(0.0, 0.01);
-  std::vector<Vector3d> points(100'000, Vector3d(2, 0, 0));
-  for (int i = 0; i < 100'000; ++i) {
-    points.emplace_back(2.0 + spot(rng), 3.0 + spot(rng), spot(rng));
-  }
-  const NormalResult result = estimate_normals(points, Vector3d(0, 0, 0), fixed_radius(0.3));
-  EXPECT_EQ(result.stats.line_like, 100'000U);
-  EXPECT_EQ(result.stats.not_planar, 100'000U);
-}
-
-struct EastNorthUp {
-  float x, y, z;
-  int intensity;
-};
-
-TEST(NormalEstimator, ReadsAnyPointRecord) {
-  const std::vector<Vector3d> points = wall(2.0);
-  std::vector<EastNorthUp> records;
-  for (const Vector3d& p : points) {
-    records.push_back(
-        {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()), 7});
-  }
-  const NormalResult result = estimate_normals(records, EastNorthUp{0, 0, 0, 0});
-  EXPECT_EQ(result.stats.valid, records.size());
-}
-
-TEST(NormalEstimator, RefusesBadOptions) {
-  NormalOptions options;
-  options.min_neighbors = 0;
-  EXPECT_THROW(NormalEstimator{options}, std::invalid_argument);
 }
 
 }  // namespace
