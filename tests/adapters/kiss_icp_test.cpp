@@ -17,6 +17,7 @@
 #include "nvm/geometry/pose.hpp"
 #include "support/random_cloud.hpp"
 #include "support/rng.hpp"
+#include "support/thread_sanitizer.hpp"
 
 namespace kiss_icp {
 namespace {
@@ -81,6 +82,7 @@ class Reference {
 };
 
 TEST(KissMap, TransparentKeepsAndFindsWhatKissIcpDoes) {
+  NVM_SKIP_UNDER_THREAD_SANITIZER("oneTBB");
   std::mt19937_64 rng = test::rng();
   VoxelHashMap map(1.0, 100.0, 20);
   map.make_transparent();
@@ -111,6 +113,7 @@ TEST(KissMap, TransparentKeepsAndFindsWhatKissIcpDoes) {
 }
 
 TEST(KissMap, TheOriginsOfScansKeepTheSidesOfAWallApart) {
+  NVM_SKIP_UNDER_THREAD_SANITIZER("oneTBB");
   std::mt19937_64 rng = test::rng();
   const test::Cloud wall = test::thin_wall(4000, 0.05, rng);
   Points front, back;
