@@ -13,11 +13,11 @@
 
 #include "app/map_files.hpp"
 #include "app/progress_bar.hpp"
+#include "app/run_files.hpp"
 #include "app/run_options.hpp"
-#include "app/run_record.hpp"
+#include "app/run_summary.hpp"
 #include "io/file.hpp"
 #include "io/sequence_reader.hpp"
-#include "io/trajectory_io.hpp"
 #include "lio/pipeline_options.hpp"
 
 namespace nvm::app {
@@ -37,8 +37,9 @@ std::unique_ptr<lio::Pipeline> make_pipeline(RunOptions& options, const io::Sequ
   return lio::make_pipeline(pipeline);
 }
 
-RunRecord process(io::SequenceReader& reader, lio::Pipeline& pipeline) {
-  RunRecord record;
+/// Runs `pipeline` on all scans. Each frame goes to `files` and `summary` as it is finished.
+void process(
+    io::SequenceReader& reader, lio::Pipeline& pipeline, RunFiles& files, RunSummary& summary) {
   ProgressBar progress(reader.info().scan_count);
   while (const std::optional<lio::Scan> scan = reader.next_scan()) {
     for (const lio::ImuSample& sample : reader.imu_until(scan->t_end)) {
@@ -46,27 +47,9 @@ RunRecord process(io::SequenceReader& reader, lio::Pipeline& pipeline) {
     }
     const lio::FrameResult frame = pipeline.process(*scan);
     progress.step(lio::name(frame.status));
-    record.add(frame);
+    files.add(frame);
+    summary.add(frame);
   }
-  return record;
-}
-
-void write_text(const std::string& path, const std::string& text) {
-  io::AtomicFile file(path);
-  file.stream() << text << '\n';
-  file.commit();
-}
-
-void write_results(
-    const RunRecord& record,
-    const lio::LioMap& map,
-    double wall_seconds,
-    const std::string& folder) {
-  const Trajectory trajectory = record.trajectory();
-  io::write_tum(folder + "/trajectory.tum", trajectory);
-  io::write_kitti_poses(folder + "/trajectory_kitti.txt", trajectory);
-  write_map_files(map, folder);
-  write_text(folder + "/timing.json", record.timing_json(wall_seconds));
 }
 
 void run(const RunArguments& arguments) {
@@ -81,24 +64,27 @@ void run(const RunArguments& arguments) {
   const auto pipeline = make_pipeline(*options, reader->info());
   make_output_folder(arguments.folder);
   const auto begin = std::chrono::steady_clock::now();
-  const RunRecord record = process(*reader, *pipeline);
+  RunFiles files(arguments.folder);
+  RunSummary summary;
+  process(*reader, *pipeline, files, summary);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
   for (const std::string& note : reader->info().notes) {
     fmt::print(stderr, "nvm: note: {}\n", note);
   }
-  for (const std::string& warning : record.warnings()) {
+  for (const std::string& warning : summary.warnings()) {
     fmt::print(stderr, "nvm: warning: {}\n", warning);
   }
-  if (record.trajectory().empty()) {
+  if (summary.poses() == 0) {
     io::fail(arguments.input, "no scan got a pose");
   }
-  write_results(record, pipeline->map(), wall.count(), arguments.folder);
-  fmt::print("{}", record.timing_table());
+  write_map_files(pipeline->map(), arguments.folder);
+  files.finish(summary, wall.count());
+  fmt::print("{}", summary.timing_table());
   fmt::print(
       "{}: {} poses of {} scans, {} map points, {:.1f} s\n",
       arguments.folder,
-      record.trajectory().size(),
-      record.frames(),
+      summary.poses(),
+      summary.frames(),
       pipeline->map().size(),
       wall.count());
 }

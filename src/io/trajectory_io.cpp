@@ -83,17 +83,20 @@ Trajectory read_tum(const std::string& path) {
 
 void write_tum(const std::string& path, const Trajectory& trajectory) {
   AtomicFile file(path);
-  std::ostream& out = file.stream();
-  out << std::fixed;
-  for (const auto& [time, pose] : trajectory) {
-    const Eigen::Vector3d p = pose.translation();
-    const Eigen::Quaterniond q(pose.linear());
-    out.precision(9);
-    out << time << ' ' << p.x() << ' ' << p.y() << ' ' << p.z() << ' ';
-    out.precision(12);
-    out << q.x() << ' ' << q.y() << ' ' << q.z() << ' ' << q.w() << '\n';
+  for (const StampedPose& stamped : trajectory) {
+    write_tum(file.stream(), stamped);
   }
   file.commit();
+}
+
+void write_tum(std::ostream& out, const StampedPose& stamped) {
+  const Eigen::Vector3d p = stamped.pose.translation();
+  const Eigen::Quaterniond q(stamped.pose.linear());
+  out << std::fixed;
+  out.precision(9);
+  out << stamped.time << ' ' << p.x() << ' ' << p.y() << ' ' << p.z() << ' ';
+  out.precision(12);
+  out << q.x() << ' ' << q.y() << ' ' << q.z() << ' ' << q.w() << '\n';
 }
 
 Trajectory read_kitti_poses(const std::string& path, const std::vector<double>& times) {
@@ -116,12 +119,16 @@ Trajectory read_kitti_poses(const std::string& path, const std::vector<double>& 
 
 void write_kitti_poses(const std::string& path, const Trajectory& trajectory) {
   AtomicFile file(path);
-  file.stream().precision(17);
-  for (const auto& [time, pose] : trajectory) {
-    const Eigen::IOFormat one_line(Eigen::StreamPrecision, Eigen::DontAlignCols, " ", " ");
-    file.stream() << pose.matrix().topRows<3>().format(one_line) << '\n';
+  for (const StampedPose& stamped : trajectory) {
+    write_kitti_pose(file.stream(), stamped.pose);
   }
   file.commit();
+}
+
+void write_kitti_pose(std::ostream& out, const Pose& pose) {
+  const Eigen::IOFormat one_line(Eigen::StreamPrecision, Eigen::DontAlignCols, " ", " ");
+  out.precision(17);
+  out << pose.matrix().topRows<3>().format(one_line) << '\n';
 }
 
 std::vector<double> read_times(const std::string& path) {
