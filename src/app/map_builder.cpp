@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The nvm authors
 #include "app/map_builder.hpp"
 
+#include <limits>
 #include <optional>
 
 #include "lio/constant_velocity.hpp"
@@ -9,12 +10,13 @@
 namespace nvm::app {
 
 MapBuilder::MapBuilder(const lio::PipelineOptions& options, const Trajectory& T_map_body)
-    : range_(options.inertial.range),
+    : returns_(options.inertial.returns),
       trajectory_(T_map_body),
       executor_(options.threads),
       normal_estimator_(options.inertial.normals),
       map_(lio::make_map(options.map_type, options.map)) {
-  range_.validate();
+  returns_.max_count = std::numeric_limits<std::size_t>::max();  // a map is not in a hurry
+  returns_.validate();
   end_.T_body_lidar = options.inertial.T_imu_lidar;
 }
 
@@ -31,7 +33,7 @@ bool MapBuilder::add(const lio::Scan& scan) {
     motion.add({scan.t_end, *end});
   }
   motion.sweep(scan.t_begin, scan.t_end, 0.0, segments_);
-  deskew(scan, segments_, end_, range_, scan_);
+  deskew(scan, segments_, end_, returns_, scan_);
   const NormalResult& result =
       normal_estimator_.estimate(scan_.points, scan_.viewpoints, executor_);
   map_->insert(scan_.points, result.normals, end_.T_world_lidar());

@@ -29,7 +29,7 @@ class MapBuilder {
   const Trajectory& placed() const { return placed_; }
 
  private:
-  lio::RangeLimits range_;
+  lio::ReturnLimits returns_;
   lio::NavState end_;
   Trajectory trajectory_;
   Trajectory placed_;

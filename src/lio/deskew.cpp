@@ -38,6 +38,11 @@ struct ScanFrameMotion {
   }
 };
 
+/// Of every how many returns one is used.
+std::size_t stride_for(std::size_t count, std::size_t max_count) {
+  return count <= max_count ? 1 : (count - 1) / max_count + 1;
+}
+
 }  // namespace
 
 void DeskewedScan::clear() {
@@ -50,7 +55,7 @@ DeskewStats deskew(
     const Scan& scan,
     const std::vector<MotionSegment>& segments,
     const NavState& end,
-    const RangeLimits& limits,
+    const ReturnLimits& limits,
     DeskewedScan& out) {
   DeskewStats stats;
   out.clear();
@@ -60,7 +65,9 @@ DeskewStats deskew(
   const Eigen::Vector3d lidar_body = end.T_body_lidar.translation();
   std::size_t current = 0;
   ScanFrameMotion motion(segments.front(), end);
-  for (const TimedPoint& point : scan.points) {
+  const std::size_t stride = stride_for(scan.points.size(), limits.max_count);
+  for (std::size_t i = 0; i < scan.points.size(); i += stride) {
+    const TimedPoint& point = scan.points[i];
     const Eigen::Vector3f p(point.x, point.y, point.z);
     const float sq_range = p.squaredNorm();
     if (!std::isfinite(sq_range) || !std::isfinite(point.dt)) {
@@ -103,13 +110,14 @@ void correct_deskew(const NavState& predicted, const NavState& corrected, Deskew
   }
 }
 
-void RangeLimits::validate() const {
+void ReturnLimits::validate() const {
   require(min_range >= 0.0, "min_range", min_range, "0 or more [m]");
   require(
       max_range > min_range && std::isfinite(max_range),
       "max_range",
       max_range,
       "larger than min_range [m]");
+  require(max_count >= 1, "max_count", max_count, "1 or more");
 }
 
 }  // namespace nvm::lio

@@ -23,15 +23,16 @@ struct DeskewedScan {
   void clear();
 };
 
-/// Which returns are used.
-struct RangeLimits {
-  double min_range = 0.3;    ///< [m]
-  double max_range = 100.0;  ///< [m]
+/// Which returns of a scan are used.
+struct ReturnLimits {
+  double min_range = 0.3;          ///< [m]
+  double max_range = 100.0;        ///< [m]
+  std::size_t max_count = 40'000;  ///< of a larger scan every n-th is used, at least 1
 
   void validate() const;
 };
 
-/// Returns left out by deskew().
+/// Returns left out by deskew(), those that max_count skips aside.
 struct DeskewStats {
   std::size_t non_finite = 0;
   std::size_t out_of_range = 0;
@@ -44,7 +45,7 @@ DeskewStats deskew(
     const Scan& scan,
     const std::vector<MotionSegment>& segments,
     const NavState& end,
-    const RangeLimits& limits,
+    const ReturnLimits& limits,
     DeskewedScan& out);
 
 /// Turns a scan deskewed with `predicted` into what it would have been with `corrected`, both

@@ -167,7 +167,7 @@ void InertialPipeline::prepare(const Scan& scan, FrameResult& result) {
   {
     const StageTimer timer(result.times.deskew);
     predict(scan.t_end);
-    deskew(scan, segments_, filter_->state(), options_.range, prepared_.scan);
+    deskew(scan, segments_, filter_->state(), options_.returns, prepared_.scan);
   }
   const StageTimer timer(result.times.normals);
   DeskewedScan& prepared = prepared_.scan;
@@ -233,7 +233,7 @@ void InertialPipeline::insert(FrameResult& result) {
 void InertialOptions::validate() const {
   initializer.validate();
   imu_noise.validate();
-  range.validate();
+  returns.validate();
   normals.validate();
   keypoints.validate();
   const auto not_negative = [](double value, const char* key) {

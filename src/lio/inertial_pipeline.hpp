@@ -26,7 +26,7 @@ struct InertialOptions {
   ImuNoise imu_noise;
   /// IMU readings farther apart than this [s] are a gap, which is bridged at constant velocity.
   double max_imu_gap = 0.05;
-  RangeLimits range;
+  ReturnLimits returns;
   NormalOptions normals;
   /// Points are moved onto the plane of their neighbourhood by at most this [m], 0 or more; with 0
   /// they stay (see project_to_planes).

@@ -76,7 +76,7 @@ const LidarOdometry::Normals& LidarOdometry::prepare(const Scan& scan, FrameResu
   {
     const StageTimer timer(result.times.deskew);
     predict(scan);
-    deskew(scan, segments_, predicted_, options_.range, scan_);
+    deskew(scan, segments_, predicted_, options_.returns, scan_);
   }
   const StageTimer timer(result.times.normals);
   result.points = scan_.size();
@@ -192,7 +192,7 @@ void LidarOdometry::insert(const Normals& normals, FrameResult& result) {
 }
 
 void LidarOdometryOptions::validate() const {
-  range.validate();
+  returns.validate();
   normals.validate();
   keypoints.validate();
   align.validate();

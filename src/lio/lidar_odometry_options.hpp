@@ -13,7 +13,7 @@ namespace nvm::lio {
 
 /// Configuration of a LidarOdometry.
 struct LidarOdometryOptions {
-  RangeLimits range;
+  ReturnLimits returns;
   NormalOptions normals;
   KeypointOptions keypoints;
   AlignOptions align;

@@ -33,7 +33,7 @@ std::unique_ptr<ScanMatcher> make_matcher(
 LidarOdometryOptions lidar_only_options(const PipelineOptions& options) {
   LidarOdometryOptions lidar_only = options.lidar_only;
   const InertialOptions& shared = options.inertial;
-  lidar_only.range = shared.range;
+  lidar_only.returns = shared.returns;
   lidar_only.normals = shared.normals;
   lidar_only.keypoints = shared.keypoints;
   lidar_only.min_inlier_share = shared.min_inlier_share;
@@ -46,8 +46,8 @@ LidarOdometryOptions lidar_only_options(const PipelineOptions& options) {
 PipelineOptions::PipelineOptions() {
   map.min_point_distance = 0.07;
   map.points_per_surface = 30;
-  inertial.normals.min_range = inertial.range.min_range;
-  inertial.normals.max_range = inertial.range.max_range;
+  inertial.normals.min_range = inertial.returns.min_range;
+  inertial.normals.max_range = inertial.returns.max_range;
   inertial.normals.widening = 2.0;
   align.max_iterations = 10;
   align.converged_translation = 2e-4;

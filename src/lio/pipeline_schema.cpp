@@ -86,8 +86,14 @@ void bind_imu(Schema& schema, InertialOptions& inertial) {
 }
 
 void bind_lidar(Schema& schema, InertialOptions& inertial) {
-  schema.add("min_range", inertial.range.min_range, kNotNegative, "Nearer returns are dropped [m]");
-  schema.add("max_range", inertial.range.max_range, kPositive, "Farther ones too [m]");
+  schema.add(
+      "min_range", inertial.returns.min_range, kNotNegative, "Nearer returns are dropped [m]");
+  schema.add("max_range", inertial.returns.max_range, kPositive, "Farther ones too [m]");
+  schema.add(
+      "max_points",
+      inertial.returns.max_count,
+      {100.0, 1e8},
+      "Used of a scan: of a larger one every n-th return");
   schema.add(
       "extrinsic_translation_deviation",
       inertial.extrinsic_translation_deviation,
