@@ -6,64 +6,70 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lio/aligned_matcher.hpp"
+#include "nvm/geometry/pose.hpp"
+
 namespace nvm::lio {
 
 namespace {
 
 constexpr std::size_t kBlock = 128;
 
-// A residual errs by about this [m]; the ties are weighed against it.
-constexpr double kResidualDeviation = 0.01;
-// How far the begin may leave the last scan's end, and the end the prediction, where the filter is
-// sure of it.
-constexpr PoseObservation kBeginTie{0.001, 0.0003};
-constexpr PoseObservation kEndTie{0.05, 0.02};
+/// From `from` to `to`, as retract() takes it.
+PoseStep step_between(const Pose& from, const Pose& to) {
+  PoseStep step;
+  step.head<3>() = so3_log(from.linear().transpose() * to.linear());
+  step.tail<3>() = to.translation() - from.translation();
+  return step;
+}
 
-PoseObservation loosened(const PoseObservation& tie, const PoseObservation& doubt) {
-  return {
-      std::hypot(tie.translation_deviation, doubt.translation_deviation),
-      std::hypot(tie.rotation_deviation, doubt.rotation_deviation)};
+/// How firmly the begin is tied to the last scan's end: one over its variance, which is what the
+/// filter doubts, but never nothing.
+PoseStep begin_tie(const PoseObservation& doubt) {
+  constexpr double kRotationDeviation = 0.0003;    // [rad]
+  constexpr double kTranslationDeviation = 0.001;  // [m]
+  const double rotation = std::hypot(doubt.rotation_deviation, kRotationDeviation);
+  const double translation = std::hypot(doubt.translation_deviation, kTranslationDeviation);
+  PoseStep tie;
+  tie.head<3>().setConstant(1.0 / (rotation * rotation));
+  tie.tail<3>().setConstant(1.0 / (translation * translation));
+  return tie;
 }
 
 }  // namespace
 
 ContinuousMatcher::ContinuousMatcher(
-    const AlignOptions& align, const PoseObservation& observation, const Executor& executor)
-    : options_(align), observation_(observation), executor_(executor) {
-  align.validate();
-  observation.validate();
-}
+    const AlignOptions& align, double residual_deviation, const Executor& executor)
+    : options_(align),
+      coupling_(align, residual_deviation),
+      residual_variance_(residual_deviation * residual_deviation),
+      executor_(executor) {}
 
 MatchResult ContinuousMatcher::match(
     const LioMap& map, PreparedScan& scan, ErrorStateFilter& filter) {
   const Pose predicted = filter.state().T_world_lidar();
-  doubt_ = pose_doubt(filter);
+  begin_tie_ = residual_variance_ * begin_tie(pose_doubt(filter));
   const auto& ages = scan.scan.ages;
   duration_ = ages.empty() ? 0.0F : *std::max_element(ages.begin(), ages.end());
-  correction_.setZero();
+  begin_.setZero();
+  end_.setZero();
+  begin_per_end_.setZero();
   MatchResult result;
-  bool converged = false;
-  while (result.iterations < options_.max_iterations && !converged) {
+  const auto linearize_at = [&](const NavState& state, bool, Information& information) {
+    const PoseStep end = step_between(predicted, state.T_world_lidar());
+    begin_ += begin_per_end_ * (end - end_);
+    end_ = end;
     Sums sums = linearize(map, scan, predicted);
-    result.residuals = sums.end.counts.valid;
-    result.inlier_share = static_cast<double>(sums.end.counts.valid) /
-                          static_cast<double>(std::max<std::size_t>(sums.end.counts.total(), 1));
-    result.residual_rms = sums.end.rms_distance();
-    result.degenerate_directions =
-        solve(sums.end, options_.min_observability).degenerate_directions;
-    if (result.residuals < options_.min_residuals) {
-      return result;
-    }
-    add_ties(sums);
-    const Vector12 step = -sums.information.ldlt().solve(sums.gradient);
-    correction_ += step;
-    ++result.iterations;
-    converged = step.segment<3>(6).norm() < options_.converged_rotation &&
-                step.segment<3>(9).norm() < options_.converged_translation;
+    eliminate_begin(sums);
+    return coupling_.inform(sums.end, state, information, result);
+  };
+  const UpdateResult update = filter.update(linearize_at, coupling_.iteration());
+  result.accepted = update.applied;
+  result.iterations = update.iterations;
+  if (result.accepted) {
+    end_ = step_between(predicted, filter.state().T_world_lidar());
+    correct_points(predicted, scan.scan);
   }
-  result.accepted = true;
-  observe_lidar_pose(retract(predicted, correction_.tail<6>()), observation_, filter);
-  correct_points(predicted, scan.scan);
   return result;
 }
 
@@ -81,9 +87,10 @@ ContinuousMatcher::Sums ContinuousMatcher::linearize(
   });
   Sums total;
   for (const Sums& sums : block_sums_) {
-    total.information += sums.information;
-    total.gradient += sums.gradient;
     total.end += sums.end;
+    total.begin += sums.begin;
+    total.begin_end += sums.begin_end;
+    total.begin_gradient += sums.begin_gradient;
   }
   return total;
 }
@@ -98,46 +105,39 @@ void ContinuousMatcher::add_point(
   Sums& sums = block_sums_[block];
   const double begin_share =
       duration_ > 0.0F ? static_cast<double>(scan.scan.ages[index] / duration_) : 0.0;
-  const PoseStep here =
-      begin_share * correction_.head<6>() + (1.0 - begin_share) * correction_.tail<6>();
+  const PoseStep here = begin_share * begin_ + (1.0 - begin_share) * end_;
   const Pose T_here = retract(T_world_lidar, here);
   const Eigen::Vector3d p_scan = scan.scan.points[index].cast<double>();
   const Eigen::Vector3f n_map =
       (T_here.linear() * scan.normals[index].cast<double>()).cast<float>();
   const Association association =
       associate(map, T_here * p_scan, n_map, options_.association, context);
-  sums.end.add(p_scan, T_here.linear(), association, options_.kernel);
-  if (association.status != AssociationStatus::kValid) {
-    return;
-  }
-  const PoseStep jacobian = point_to_plane_jacobian(
-      p_scan, T_here.linear().transpose() * association.normal, association.normal);
-  Vector12 both;
-  both << begin_share * jacobian, (1.0 - begin_share) * jacobian;
-  const double weight = options_.kernel.weight(association.weight * association.distance) *
-                        association.weight * association.weight;
-  sums.information.noalias() += (weight * both) * both.transpose();
-  sums.gradient += (weight * association.distance) * both;
+  NormalEquations equations;
+  equations.add(p_scan, T_here.linear(), association, options_.kernel);
+  sums.begin += begin_share * begin_share * equations.information;
+  sums.begin_end += begin_share * (1.0 - begin_share) * equations.information;
+  sums.begin_gradient += begin_share * equations.gradient;
+  equations.information *= (1.0 - begin_share) * (1.0 - begin_share);
+  equations.gradient *= 1.0 - begin_share;
+  sums.end += equations;
 }
 
-void ContinuousMatcher::add_ties(Sums& sums) const {
-  const auto tie = [&](int begin, const PoseObservation& deviation) {
-    PoseStep weight;
-    weight.head<3>().setConstant(kResidualDeviation / deviation.rotation_deviation);
-    weight.tail<3>().setConstant(kResidualDeviation / deviation.translation_deviation);
-    weight = weight.cwiseAbs2().eval();
-    sums.information.diagonal().segment<6>(begin) += weight;
-    sums.gradient.segment<6>(begin) += weight.cwiseProduct(correction_.segment<6>(begin));
-  };
-  tie(0, loosened(kBeginTie, doubt_));
-  tie(6, loosened(kEndTie, doubt_));
+void ContinuousMatcher::eliminate_begin(Sums& sums) {
+  sums.begin.diagonal() += begin_tie_;
+  sums.begin_gradient += begin_tie_.cwiseProduct(begin_);
+  const Eigen::LDLT<PoseMatrix> begin(sums.begin);
+  const PoseStep step = begin.solve(sums.begin_gradient);
+  begin_per_end_ = -begin.solve(sums.begin_end);
+  begin_ -= step;
+  sums.end.information += sums.begin_end.transpose() * begin_per_end_;
+  sums.end.gradient -= sums.begin_end.transpose() * step;
 }
 
 void ContinuousMatcher::correct_points(const Pose& T_world_lidar, DeskewedScan& scan) const {
   if (!(duration_ > 0.0F)) {
     return;
   }
-  const PoseStep begin_to_end = correction_.head<6>() - correction_.tail<6>();
+  const PoseStep begin_to_end = begin_ - end_;
   const Eigen::Vector3f turn = begin_to_end.head<3>().cast<float>();
   const Eigen::Vector3f shift =
       (T_world_lidar.linear().transpose() * begin_to_end.tail<3>()).cast<float>();

@@ -5,9 +5,9 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "lio/aligned_matcher.hpp"
 #include "lio/executor.hpp"
 #include "lio/scan_matcher.hpp"
+#include "lio/tight_coupling.hpp"
 #include "nvm/registration/align_options.hpp"
 
 namespace nvm::lio {
@@ -17,24 +17,23 @@ namespace nvm::lio {
 ///
 /// Both poses are corrections of the IMU's motion, interpolated linearly in time, so that the fine
 /// motion between them stays the IMU's. The begin is tied to where the last scan ended, as firmly
-/// as the filter is sure of it.
+/// as the filter is sure of it; the end is minimised together with the IMU's prediction (tight
+/// coupling), the begin being eliminated: for each end it is the one that fits best.
 class ContinuousMatcher final : public ScanMatcher {
  public:
-  ContinuousMatcher(
-      const AlignOptions& align, const PoseObservation& observation, const Executor& executor);
+  /// See TightCoupling. Throws std::invalid_argument for bad options.
+  ContinuousMatcher(const AlignOptions& align, double residual_deviation, const Executor& executor);
 
   MatchResult match(const LioMap& map, PreparedScan& scan, ErrorStateFilter& filter) override;
 
  private:
-  using Vector12 = Eigen::Matrix<double, 12, 1, Eigen::DontAlign>;
-  using Matrix12 = Eigen::Matrix<double, 12, 12, Eigen::DontAlign>;
-
-  /// Sums over a block of keypoints: the twelve-dimensional problem, and the six-dimensional one of
-  /// the end pose alone, which tells what the scan observes.
+  /// Sums over a block of keypoints. The problem is one of both poses: what `end` says of the end
+  /// alone, what this says of the begin, and how they hang together.
   struct Sums {
-    Matrix12 information = Matrix12::Zero();
-    Vector12 gradient = Vector12::Zero();
     NormalEquations end;
+    PoseMatrix begin = PoseMatrix::Zero();
+    PoseMatrix begin_end = PoseMatrix::Zero();
+    PoseStep begin_gradient = PoseStep::Zero();
   };
 
   Sums linearize(const LioMap& map, const PreparedScan& scan, const Pose& T_world_lidar);
@@ -45,15 +44,21 @@ class ContinuousMatcher final : public ScanMatcher {
       std::uint32_t index,
       const Pose& T_world_lidar,
       std::size_t block);
-  void add_ties(Sums& sums) const;
+  /// Eliminates the begin: moves it to its best place for the end as it is, and leaves in sums.end
+  /// what the matches say of the end when the begin follows it.
+  void eliminate_begin(Sums& sums);
   void correct_points(const Pose& T_world_lidar, DeskewedScan& scan) const;
 
   AlignOptions options_;
-  PoseObservation observation_;
+  TightCoupling coupling_;
+  double residual_variance_;  ///< [m^2]
   Executor executor_;
-  PoseObservation doubt_;                   ///< how unsure the prediction of the scan in work is
-  float duration_ = 0.0F;                   ///< of the scan in work [s]
-  Vector12 correction_ = Vector12::Zero();  ///< begin, then end: rotation (scan frame), translation
+  // Of the scan in work. Corrections are those of the predicted motion.
+  PoseStep begin_tie_;     ///< weight, in residuals
+  float duration_ = 0.0F;  ///< [s]
+  PoseStep begin_ = PoseStep::Zero();
+  PoseStep end_ = PoseStep::Zero();
+  PoseMatrix begin_per_end_ = PoseMatrix::Zero();  ///< how the begin follows the end
   std::vector<Sums> block_sums_;
   std::vector<LioMap::QueryContext> contexts_;
 };

@@ -7,6 +7,7 @@
 
 #include "lio/executor.hpp"
 #include "lio/scan_matcher.hpp"
+#include "lio/tight_coupling.hpp"
 #include "nvm/registration/scan_aligner.hpp"
 
 namespace nvm::lio {
@@ -16,19 +17,15 @@ namespace nvm::lio {
 /// scan, and the covariance of that), so that each speaks where the other says little.
 class CoupledMatcher final : public ScanMatcher {
  public:
-  /// `residual_deviation`: of a point from its plane [m], positive, those that share map points
-  /// counted as one. Throws std::invalid_argument for bad options.
+  /// See TightCoupling. Throws std::invalid_argument for bad options.
   CoupledMatcher(const AlignOptions& align, double residual_deviation, const Executor& executor);
 
   MatchResult match(const LioMap& map, PreparedScan& scan, ErrorStateFilter& filter) override;
 
  private:
-  bool linearize(const LioMap& map, const NavState& state, Information& out);
-
   ScanAligner<LioMap> aligner_;
-  double residual_deviation_;
+  TightCoupling coupling_;
   Executor executor_;
-  MatchResult result_;
   std::vector<Eigen::Vector3f> points_, normals_;
 };
 

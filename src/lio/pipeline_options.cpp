@@ -24,7 +24,8 @@ std::unique_ptr<ScanMatcher> make_matcher(
       }
       return std::make_unique<AlignedMatcher>(options.align, options.observation, executor);
     case PipelineType::kCtLioContinuous:
-      return std::make_unique<ContinuousMatcher>(options.align, options.observation, executor);
+      return std::make_unique<ContinuousMatcher>(
+          options.align, options.residual_deviation, executor);
     default:
       return std::make_unique<FilterMatcher>(options.measurement, options.iteration, executor);
   }

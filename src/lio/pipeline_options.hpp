@@ -41,8 +41,8 @@ struct PipelineOptions {
   MeasurementOptions measurement;        ///< fast_lio
   IterationOptions iteration;            ///< fast_lio
   AlignOptions align;                    ///< ct_lio
-  Coupling coupling = Coupling::kTight;  ///< ct_lio; ct_lio_continuous is loosely coupled
-  /// ct_lio, tightly coupled: of a point from its plane [m], positive.
+  Coupling coupling = Coupling::kTight;  ///< ct_lio
+  /// Tightly coupled: of a point from its plane [m], positive.
   double residual_deviation = 0.01;
   PoseObservation observation;  ///< loosely coupled
   /// Its own part only: what it shares with the inertial pipelines comes from `inertial`.

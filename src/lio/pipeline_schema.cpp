@@ -159,7 +159,7 @@ void bind_optimization(Schema& schema, PipelineOptions& options) {
       "coupling",
       options.coupling,
       {{"tight", Coupling::kTight}, {"loose", Coupling::kLoose}},
-      "Of optimisation and IMU; ct_lio_continuous: loose");
+      "Of optimisation and IMU; ct_lio_continuous: always tight");
   schema.add(
       "residual_deviation", options.residual_deviation, kPositive, "With coupling: tight [m]");
   PoseObservation& observation = options.observation;
