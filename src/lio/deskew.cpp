@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "lio/scan_thinning.hpp"
 #include "nvm/core/require.hpp"
 
 namespace nvm::lio {
@@ -38,11 +39,6 @@ struct ScanFrameMotion {
   }
 };
 
-/// Of every how many returns one is used.
-std::size_t stride_for(std::size_t count, std::size_t max_count) {
-  return count <= max_count ? 1 : (count - 1) / max_count + 1;
-}
-
 }  // namespace
 
 void DeskewedScan::clear() {
@@ -59,23 +55,22 @@ DeskewStats deskew(
     DeskewedScan& out) {
   DeskewStats stats;
   out.clear();
-  const auto min_sq_range = static_cast<float>(limits.min_range * limits.min_range);
-  const auto max_sq_range = static_cast<float>(limits.max_range * limits.max_range);
   const Eigen::Matrix3d R_body_lidar = end.T_body_lidar.linear();
   const Eigen::Vector3d lidar_body = end.T_body_lidar.translation();
   std::size_t current = 0;
   ScanFrameMotion motion(segments.front(), end);
-  const std::size_t stride = stride_for(scan.points.size(), limits.max_count);
-  for (std::size_t i = 0; i < scan.points.size(); i += stride) {
-    const TimedPoint& point = scan.points[i];
-    const Eigen::Vector3f p(point.x, point.y, point.z);
-    const float sq_range = p.squaredNorm();
+  ScanThinning thinning(scan, limits);
+  for (const TimedPoint& point : scan.points) {
+    const float sq_range = point.sq_range();
     if (!std::isfinite(sq_range) || !std::isfinite(point.dt)) {
       ++stats.non_finite;
       continue;
     }
-    if (sq_range < min_sq_range || sq_range > max_sq_range) {
+    if (!limits.contain(sq_range)) {
       ++stats.out_of_range;
+      continue;
+    }
+    if (!thinning.keeps(sq_range)) {
       continue;
     }
     const double time = scan.t_begin + static_cast<double>(point.dt);
@@ -88,7 +83,8 @@ DeskewStats deskew(
     }
     const double s = time - segments[current].time;
     const Eigen::Vector3d shift = motion.shift(s);
-    const Eigen::Vector3d p_body = R_body_lidar * p.cast<double>() + lidar_body;
+    const Eigen::Vector3d p_body =
+        R_body_lidar * Eigen::Vector3d(point.x, point.y, point.z) + lidar_body;
     out.points.emplace_back((motion.turned(p_body, s) + shift).cast<float>());
     out.viewpoints.emplace_back((motion.turned(lidar_body, s) + shift).cast<float>());
     out.ages.push_back(static_cast<float>(end.time - time));

@@ -27,12 +27,17 @@ struct DeskewedScan {
 struct ReturnLimits {
   double min_range = 0.3;          ///< [m]
   double max_range = 100.0;        ///< [m]
-  std::size_t max_count = 40'000;  ///< of a larger scan every n-th is used, at least 1
+  std::size_t max_count = 60'000;  ///< about; the densest of a larger scan are thinned, at least 1
 
+  /// Whether a squared range [m^2] lies between the two; not a number does not.
+  bool contain(float sq_range) const {
+    return sq_range >= static_cast<float>(min_range * min_range) &&
+           sq_range <= static_cast<float>(max_range * max_range);
+  }
   void validate() const;
 };
 
-/// Returns left out by deskew(), those that max_count skips aside.
+/// Returns left out by deskew(), those that are thinned aside.
 struct DeskewStats {
   std::size_t non_finite = 0;
   std::size_t out_of_range = 0;

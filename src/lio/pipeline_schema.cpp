@@ -93,7 +93,7 @@ void bind_lidar(Schema& schema, InertialOptions& inertial) {
       "max_points",
       inertial.returns.max_count,
       {100.0, 1e8},
-      "Used of a scan: of a larger one every n-th return");
+      "Used of a scan, about; a larger one is thinned where it is densest");
   schema.add(
       "extrinsic_translation_deviation",
       inertial.extrinsic_translation_deviation,

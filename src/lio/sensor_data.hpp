@@ -16,6 +16,8 @@ struct TimedPoint {
   float intensity = 0.0F;
   float dt = 0.0F;  ///< after Scan::t_begin [s]
   std::uint16_t ring = 0;
+
+  float sq_range() const { return x * x + y * y + z * z; }  ///< [m^2]
 };
 
 /// The returns of one sweep, in ascending order of `dt`. A sensor without point times has dt = 0
