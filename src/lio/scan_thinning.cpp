@@ -29,7 +29,7 @@ float find_sq_reach(std::vector<float> sq_ranges, double wanted) {
   double sum = 0.0;  // of those within reach
   for (std::size_t i = 0; i < sq_ranges.size(); ++i) {
     sum += static_cast<double>(sq_ranges[i]);
-    const double beyond = static_cast<double>(sq_ranges.size() - i - 1);
+    const auto beyond = static_cast<double>(sq_ranges.size() - i - 1);
     const double sq_reach = sum / (wanted - beyond);
     const bool is_next_beyond =
         i + 1 == sq_ranges.size() || sq_reach <= static_cast<double>(sq_ranges[i + 1]);
