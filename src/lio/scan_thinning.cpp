@@ -9,7 +9,8 @@ namespace nvm::lio {
 
 namespace {
 
-constexpr std::size_t kStride = 16;  // a sample tells the distribution of ranges well enough
+// A sample tells the distribution of ranges well enough. Prime: a LiDAR fires its lines in turn.
+constexpr std::size_t kStride = 17;
 
 std::vector<float> sample_of_sq_ranges(const Scan& scan, const ReturnLimits& limits) {
   std::vector<float> sq_ranges;
