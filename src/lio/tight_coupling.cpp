@@ -34,7 +34,7 @@ TightCoupling::TightCoupling(const AlignOptions& align, double residual_deviatio
       "residual_deviation",
       residual_deviation,
       "positive [m]");
-  iteration_.max_iterations = align.max_iterations;
+  iteration_ = {align.max_iterations, align.converged_translation, align.converged_rotation};
 }
 
 bool TightCoupling::inform(
