@@ -17,6 +17,8 @@ namespace nvm::detail {
 /// unvisited place would otherwise wait for memory five times in a row.
 class LookAhead {
  public:
+  static constexpr std::size_t kWorthwhile = 8;  // fewer wait for less than looking ahead takes
+
   [[gnu::always_inline]] void start(
       const PointBlock& block,
       std::size_t count,
@@ -24,7 +26,6 @@ class LookAhead {
       const VoxelStorage& storage) noexcept {
     bricks_.fill(kNone);
     const std::size_t unknown = find_unknown(block, count, cache);
-    constexpr std::size_t kWorthwhile = 8;  // fewer wait for less than looking ahead takes
     if (unknown < kWorthwhile) {
       return;
     }
@@ -46,7 +47,7 @@ class LookAhead {
     for_each([&](const Unknown& voxel) { prefetch_end(storage, voxel.head); });
   }
 
-  /// The brick of point `i`, unless it was not looked up, has just been made, or is gone.
+  /// The brick of point `i`, or any other: it may not have been looked up, or is gone.
   std::uint32_t brick_hint(std::size_t i) const noexcept { return bricks_[i]; }
 
  private:
@@ -80,7 +81,7 @@ class LookAhead {
   }
 
   std::array<Unknown, PointBlock::kSize> unknown_;
-  std::array<std::uint32_t, PointBlock::kSize> bricks_;  // of the block's points
+  std::array<std::uint32_t, PointBlock::kSize> bricks_{};  // of the block's points
 };
 
 }  // namespace nvm::detail

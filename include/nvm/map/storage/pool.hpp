@@ -87,6 +87,7 @@ class IndexAllocator {
     free_ = kNone;
   }
 
+  std::size_t left() const noexcept { return capacity_ - taken_; }
   bool exhausted() const noexcept { return free_ == kNone && used_ == capacity_; }
   /// Every index handed out so far is below this.
   std::uint32_t high_water() const noexcept { return used_; }

@@ -42,6 +42,7 @@ class SurfaceStorage {
   }
   /// Points in all surfaces.
   std::size_t point_count() const noexcept { return point_count_; }
+  std::size_t chunks_left() const noexcept { return chunk_ids_.left(); }
   bool chunks_exhausted() const noexcept { return chunk_ids_.exhausted(); }
 
   /// An empty surface of `voxel`, which `inside` is a point of, not linked to the others yet. There

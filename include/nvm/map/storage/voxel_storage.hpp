@@ -47,6 +47,10 @@ class VoxelStorage : public SurfaceStorage {
   bool is_brick(std::uint32_t brick, IndexKey key) const noexcept {
     return brick < brick_ids_.high_water() && bricks_[brick].key == key;
   }
+  /// The brick with `key`, or kNone; `hint` is probably the one.
+  std::uint32_t find_brick(IndexKey key, std::uint32_t hint) const noexcept {
+    return is_brick(hint, key) ? hint : find_brick(key);
+  }
   const Brick* bricks() const noexcept { return bricks_.get(); }
   /// Starts to load the whole of a brick (or none).
   [[gnu::always_inline]] void prefetch_brick(std::uint32_t id) const noexcept {
@@ -160,6 +164,8 @@ class VoxelStorage : public SurfaceStorage {
 
   std::size_t voxel_count() const noexcept { return voxel_ids_.taken(); }
   std::size_t brick_count() const noexcept { return brick_ids_.taken(); }
+  /// All voxels have ids below this.
+  std::uint32_t voxel_high_water() const noexcept { return voxel_ids_.high_water(); }
   const Recency& recency() const noexcept { return recency_; }
   Recency& recency() noexcept { return recency_; }
 
@@ -172,6 +178,10 @@ class VoxelStorage : public SurfaceStorage {
 
   // --- changing
 
+  /// Whether `points` points fit, wherever they are.
+  bool has_room_for(std::size_t points) const noexcept {
+    return voxel_ids_.left() >= points && brick_ids_.left() >= points && chunks_left() >= points;
+  }
   bool voxels_exhausted() const noexcept { return voxel_ids_.exhausted(); }
   bool bricks_exhausted() const noexcept { return brick_ids_.exhausted(); }
 

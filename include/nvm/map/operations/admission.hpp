@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "nvm/map/map_options.hpp"
+#include "nvm/map/storage/lanes.hpp"
+#include "nvm/map/storage/lattice.hpp"
+#include "nvm/map/storage/point_chunk.hpp"
+#include "nvm/map/storage/pool.hpp"
+#include "nvm/map/storage/stored_normal.hpp"
+
+namespace nvm::detail {
+
+/// The surface of a voxel that takes a normal.
+struct SurfaceChoice {
+  std::uint32_t surface;  // its head
+  bool makes_new;         // behind `surface`, which is the last one
+};
+
+/// Whether a surface takes a point, and if not, why.
+enum class Admissible : std::uint8_t { kYes, kTooClose, kSurfaceFull };
+
+struct Room {
+  Admissible admissible;
+  std::uint32_t last;  // if it takes the point: the last chunk of the surface
+};
+
+/// What a voxel, as it is, makes of a point: the rules of spec §3.3 and §3.4. Changes nothing.
+class Admission {
+ public:
+  Admission(
+      const MapOptions& options,
+      std::int32_t min_surface_dot,
+      std::int32_t min_sq_steps,
+      const PointChunk* chunks)
+      : chunks_(chunks),
+        min_surface_dot_(min_surface_dot),
+        min_sq_steps_(min_sq_steps),
+        max_surfaces_(options.max_surfaces),
+        points_per_surface_(options.points_per_surface),
+        rule_(options.surface_rule) {}
+
+  /// True when the front surface at `front` takes the point, whatever its normal: there is nothing
+  /// to compare.
+  [[gnu::always_inline]] bool takes_any(
+      std::uint32_t front, const StoredNormal& normal) const noexcept {
+    return normal == StoredNormal{} || chunks_[front].size == 0;
+  }
+  /// The view-consistency judgment (paper III-B-1, spec §3.4) otherwise.
+  [[gnu::always_inline]] SurfaceChoice choose(
+      std::uint32_t front, const StoredNormal& normal) const noexcept {
+    return rule_ == SurfaceRule::kPaper ? first_consistent(front, normal)
+                                        : smallest_angle(front, normal);
+  }
+
+  /// Whether the surface at `head` has room for the point (spec §3.3).
+  [[gnu::always_inline]] Room find_room(std::uint32_t head, const LanePoint& point) const noexcept {
+    if (chunks_[head].size >= points_per_surface_) {
+      return {Admissible::kSurfaceFull, kNone};
+    }
+    std::uint32_t last = head;
+    for (std::uint32_t id = head; id != kNone; id = chunks_[id].next) {
+      IntLanes distances;
+      sq_distances(chunks_[id], point, distances);
+      if (lanes_below(distances, min_sq_steps_) != 0) {
+        return {Admissible::kTooClose, kNone};
+      }
+      last = id;
+    }
+    return {Admissible::kYes, last};
+  }
+
+  /// All of it: whether the voxel takes the point.
+  [[gnu::always_inline]] Admissible judge(
+      std::uint32_t front, const LanePoint& point, const StoredNormal& normal) const noexcept {
+    if (takes_any(front, normal)) {
+      // On a path of its own: merged with that below, the processor would have to wait for the
+      // answer before it reads the surface (20 instead of 15 ns per point).
+      return find_room(front, point).admissible;
+    }
+    const SurfaceChoice choice = choose(front, normal);
+    return choice.makes_new ? Admissible::kYes : find_room(choice.surface, point).admissible;
+  }
+
+ private:
+  /// The first surface that agrees with the normal; the last one takes whatever is left.
+  SurfaceChoice first_consistent(std::uint32_t front, const StoredNormal& normal) const noexcept {
+    std::uint32_t surface = front;
+    for (int count = 1;; ++count) {
+      const PointChunk& chunk = chunks_[surface];
+      if (count == max_surfaces_ || dot(chunk.direction, normal) > min_surface_dot_) {
+        return {surface, false};
+      }
+      if (chunk.next_surface == kNone) {
+        return {surface, true};
+      }
+      surface = chunk.next_surface;
+    }
+  }
+
+  SurfaceChoice smallest_angle(std::uint32_t front, const StoredNormal& normal) const noexcept {
+    int best_dot = std::numeric_limits<int>::min();
+    std::uint32_t best = front;
+    std::uint32_t last = front;
+    int count = 0;
+    for (std::uint32_t surface = front; surface != kNone; surface = chunks_[surface].next_surface) {
+      const int surface_dot = dot(chunks_[surface].direction, normal);
+      if (surface_dot > best_dot) {
+        best_dot = surface_dot;
+        best = surface;
+      }
+      last = surface;
+      ++count;
+    }
+    const bool agrees = best_dot > min_surface_dot_;
+    return agrees || count == max_surfaces_ ? SurfaceChoice{best, false}
+                                            : SurfaceChoice{last, true};
+  }
+
+  const PointChunk* chunks_;
+  std::int32_t min_surface_dot_;
+  std::int32_t min_sq_steps_;
+  int max_surfaces_;
+  int points_per_surface_;
+  SurfaceRule rule_;
+};
+
+}  // namespace nvm::detail
