@@ -41,14 +41,13 @@ struct IsMap<
 /// The map concept that registration needs. A model has
 ///
 /// - `Map::QueryContext`: default-constructible scratch state, one per calling thread. It may speed
-/// a query up; it never
-///   changes its answer.
-/// - `std::size_t nearest(const Eigen::Vector3d& point, const Eigen::Vector3f& normal, const
-/// NearestSearch&, Neighbor* out,
-///   QueryContext&) const noexcept`: writes at most `search.count` neighbours of `point` (map
-///   frame, m), ascending by distance, to `out` (room for `search.count`) and returns how many.
-///   `normal` is the unit normal of the querying surface in the map frame; a map without normals
-///   ignores it. Non-finite points get no neighbours.
+///   a query up; it never changes its answer.
+/// - `std::size_t nearest(const Eigen::Vector3d& point, const Eigen::Vector3f& normal,
+///   const NearestSearch& search, Neighbor* out, QueryContext& context) const noexcept`: writes at
+///   most `search.count` neighbours of `point` (map frame, m), ascending by distance, to `out`
+///   (room for `search.count`) and returns how many. `normal` is the unit normal of the querying
+///   surface in the map frame; a map without normals ignores it. Non-finite points get no
+///   neighbours.
 ///
 /// `nearest` may be called from many threads at once while nobody changes the map.
 template <class Map>
