@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
 
-// What filling a map costs: insertion, growth, eviction, memory, files; nvm's map and those that
-// odometries use. One thread, but for insert_clouds over oneTBB.
+// What filling a map costs: insertion, growth, memory, files; nvm's map and those that odometries
+// use. One thread, but for insert_clouds over oneTBB.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <ctime>
 #include <memory>
 #include <random>
 #include <utility>
@@ -18,6 +17,7 @@
 #include "nvm/core/executor_tbb.hpp"
 #include "nvm/map/serialization.hpp"
 #include "support/contestants.hpp"
+#include "support/cpu_seconds.hpp"
 #include "support/walk.hpp"
 #include "support/wall_field.hpp"
 
@@ -35,8 +35,6 @@ void return_freed_memory() {
   malloc_trim(0);
 #endif
 }
-
-double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 /// Of each scan of the walk, only the points that an NVM map stores.
 const std::vector<CorridorScan>& new_points() {
@@ -137,34 +135,6 @@ void insert_clouds(benchmark::State& state) {
   state.counters["ns_per_point"] = benchmark::Counter(
       static_cast<double>(points) * 1e-9,
       benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
-}
-
-/// walk_on/<capacity>: the second half of a walk of 40 m, by when a map of the smaller capacities
-/// is full, so that each new voxel pushes one out: per point of raw scans. What eviction costs is
-/// the difference to the largest capacity, which nothing fills.
-void walk_on(benchmark::State& state) {
-  constexpr int kHalf = 200;
-  MapOptions options = nvm_options();
-  options.capacity = static_cast<std::size_t>(state.range(0));
-  double seconds = 0.0;
-  std::size_t points = 0;
-  std::size_t evicted = 0;
-  for (auto _ : state) {
-    VoxelMap map(options);
-    for (int i = 0; i < 2 * kHalf; ++i) {
-      const CorridorScan scan = Corridor::scan(i);
-      const double begin = cpu_seconds();
-      const InsertStats stats = map.insert(scan.points, scan.normals, scan.T_map_scan);
-      if (i >= kHalf) {
-        seconds += cpu_seconds() - begin;
-        points += scan.points.size();
-        evicted += stats.evicted_voxels;
-      }
-    }
-  }
-  state.counters["evicted_per_1000_points"] =
-      1e3 * static_cast<double>(evicted) / static_cast<double>(points);
-  state.counters["ns_per_point"] = 1e9 * seconds / static_cast<double>(points);
 }
 
 /// The patches of a field as scans, for any map.
@@ -274,8 +244,6 @@ NVM_GROWTH_BENCHMARK(SmallGicp);
 BENCHMARK_TEMPLATE(insert_raw, KissIcp)->Unit(benchmark::kMillisecond);
 BENCHMARK_TEMPLATE(insert_new, KissIcp)->Unit(benchmark::kMillisecond);
 #endif
-BENCHMARK(walk_on)->Arg(10'000)->Arg(20'000)->Arg(4'000'000)->Iterations(1)->Unit(
-    benchmark::kMillisecond);
 BENCHMARK_TEMPLATE(insert_clouds, SerialExecutor)
     ->Arg(0)
     ->Arg(1)
