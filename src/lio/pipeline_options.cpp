@@ -47,6 +47,7 @@ LidarOdometryOptions lidar_only_options(const PipelineOptions& options) {
 PipelineOptions::PipelineOptions() {
   map.min_point_distance = 0.07;
   map.points_per_surface = 30;
+  map.max_merged_points = 8;
   inertial.normals.min_range = inertial.returns.min_range;
   inertial.normals.max_range = inertial.returns.max_range;
   inertial.normals.widening = 2.0;

@@ -32,6 +32,11 @@ void bind_map(Schema& schema, PipelineOptions& options) {
   schema.add(
       "min_point_distance", map.min_point_distance, {0.0, 200.0}, "Between stored points [m]");
   schema.add("space_across_voxels", map.space_across_voxels, "Also between those of two voxels");
+  schema.add(
+      "max_merged_points",
+      map.max_merged_points,
+      {1.0, 255.0},
+      "Points that a stored one becomes the mean plane of, at most; 1: it never moves");
   schema.add("max_surfaces", map.max_surfaces, {1.0, 8.0}, "Surfaces of a voxel");
   schema.add_choice<SurfaceRule>(
       "surface_rule",

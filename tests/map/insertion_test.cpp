@@ -255,6 +255,8 @@ TEST(MapOptions, NamesTheBadOne) {
       message([](MapOptions& o) { o.points_per_surface = 121; }), HasSubstr("from 1 to 120"));
   EXPECT_THAT(
       message([](MapOptions& o) { o.min_point_distance = 0.7; }), HasSubstr("min_point_distance"));
+  EXPECT_THAT(
+      message([](MapOptions& o) { o.max_merged_points = 256; }), HasSubstr("from 1 to 255"));
   EXPECT_THAT(message([](MapOptions& o) { o.max_surfaces = 9; }), HasSubstr("max_surfaces = 9"));
   EXPECT_THAT(
       message([](MapOptions& o) { o.max_surface_angle = 4.0; }), HasSubstr("max_surface_angle"));

@@ -235,7 +235,7 @@ class VoxelMap {
     std::size_t inserted = 0;
     if constexpr (!std::is_same_v<Executor, SerialExecutor>) {
       using Parallel = detail::ParallelInsertion<Executor>;
-      if (size >= Parallel::kMinPoints) {
+      if (size >= Parallel::kMinPoints && options_.max_merged_points == 1) {
         inserted = Parallel(insertion, storage_, executor).insert(size, fill);
       }
     }

@@ -25,7 +25,7 @@ enum class Admissible : std::uint8_t { kYes, kTooClose, kSurfaceFull };
 
 struct Room {
   Admissible admissible;
-  std::uint32_t last;  // if it takes the point: the last chunk of the surface
+  std::uint32_t chunk;  // kYes: the last one of the surface; kTooClose: that of a point too close
 };
 
 /// What a voxel, as it is, makes of a point: the rules of spec §3.3 and §3.4. Changes nothing.
@@ -66,7 +66,7 @@ class Admission {
       IntLanes distances;
       sq_distances(chunks_[id], point, distances);
       if (lanes_below(distances, min_sq_steps_) != 0) {
-        return {Admissible::kTooClose, kNone};
+        return {Admissible::kTooClose, id};
       }
       last = id;
     }

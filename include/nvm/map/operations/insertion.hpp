@@ -12,6 +12,7 @@
 #include "nvm/map/operations/look_ahead.hpp"
 #include "nvm/map/operations/nearest_query.hpp"
 #include "nvm/map/operations/point_block.hpp"
+#include "nvm/map/operations/point_merger.hpp"
 #include "nvm/map/storage/lanes.hpp"
 #include "nvm/map/storage/lattice.hpp"
 #include "nvm/map/storage/stored_normal.hpp"
@@ -37,6 +38,7 @@ class Insertion {
         storage_(storage),
         chunks_(storage.chunks()),
         cache_(cache),
+        merger_(options, min_sq_steps_, storage),
         number_(cache.begin_insertion()) {
     storage_.recency().begin_epoch();
   }
@@ -148,6 +150,9 @@ class Insertion {
     const Room room = admission_.find_room(head, LanePoint(point));
     if (room.admissible != Admissible::kYes) {
       reject(room.admissible);
+      if (room.admissible == Admissible::kTooClose && merger_.is_on()) {
+        merger_.merge_into_nearest(room.chunk, point, normal);
+      }
       return;
     }
     if (options_.space_across_voxels && is_neighbor_too_close(head, point, normal)) {
@@ -160,7 +165,7 @@ class Insertion {
       ++stats_.map_full;
       return;
     }
-    storage_.append(head, room.last, point, normal);
+    storage_.append(head, room.chunk, point, normal);
     ++stats_.stored;
   }
 
@@ -168,15 +173,18 @@ class Insertion {
   bool is_neighbor_too_close(
       std::uint32_t head, const WrappedPoint& point, const StoredNormal& normal) noexcept {
     if (normal == StoredNormal{}) {
-      return finds_any(NoGate{}, head, point);
+      return finds_any(NoGate{}, head, point, normal);
     }
     gate_.normal = normal;
-    return finds_any(gate_, head, point);
+    return finds_any(gate_, head, point, normal);
   }
 
   template <class Gate>
   [[gnu::noinline]] bool finds_any(
-      const Gate& gate, std::uint32_t head, const WrappedPoint& point) const noexcept {
+      const Gate& gate,
+      std::uint32_t head,
+      const WrappedPoint& point,
+      const StoredNormal& normal) noexcept {
     const std::uint32_t voxel = chunks_[head].voxel;
     const LatticePoint place{
         storage_.index_of(voxel),
@@ -184,6 +192,11 @@ class Insertion {
     Candidates found(1);
     NearestQuery<Gate>(storage_, place, gate, false)
         .collect(storage_.brick_of(voxel), min_sq_steps_, found);
+    if (found.count() > 0 && merger_.is_on()) {
+      found.keep_nearest();
+      const PointId nearest = found.id(0);
+      merger_.merge(nearest / kLanes, static_cast<int>(nearest % kLanes), point, normal);
+    }
     return found.count() > 0;
   }
 
@@ -224,6 +237,7 @@ class Insertion {
   VoxelStorage& storage_;
   const PointChunk* chunks_;  // copied from it: behind a reference it would be read again and again
   VoxelCache& cache_;
+  PointMerger merger_;
   std::uint32_t number_;
   LookAhead look_ahead_;
   InsertStats stats_;

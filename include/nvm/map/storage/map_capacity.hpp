@@ -23,13 +23,16 @@ struct MapCapacity {
   std::size_t voxels;
   std::size_t bricks;
   std::size_t chunks;
+  bool counts_merged;  // points that each stored point stands for: a byte per lane
 
   std::size_t bytes() const {
     return voxels * sizeof(std::uint32_t) + Recency::bytes(voxels) + bricks * sizeof(Brick) +
-           BrickTable::max_bytes(bricks) + chunks * kBytesPerChunk;
+           BrickTable::max_bytes(bricks) + chunks * bytes_per_chunk();
   }
 
-  static constexpr std::size_t kBytesPerChunk = sizeof(PointChunk) + sizeof(NormalChunk);
+  std::size_t bytes_per_chunk() const {
+    return sizeof(PointChunk) + sizeof(NormalChunk) + (counts_merged ? kLanes : 0);
+  }
 };
 
 /// Without a limit in bytes there is room for the worst case: each voxel in a brick of its own, all
@@ -40,17 +43,18 @@ inline MapCapacity map_capacity(const MapOptions& options) {
   const auto surfaces = static_cast<std::size_t>(options.max_surfaces);
   const std::size_t chunks_per_surface =
       (static_cast<std::size_t>(options.points_per_surface) + kLanes - 1) / kLanes;
+  const bool counts_merged = options.max_merged_points > 1;
   const auto worst_case = [&](std::size_t voxels) {
-    return MapCapacity{
-        voxels, voxels, std::min(kMaxChunks, voxels * surfaces * chunks_per_surface)};
+    const std::size_t chunks = std::min(kMaxChunks, voxels * surfaces * chunks_per_surface);
+    return MapCapacity{voxels, voxels, chunks, counts_merged};
   };
   const MapCapacity unlimited = worst_case(options.capacity);
   if (options.max_bytes == 0 || unlimited.bytes() <= options.max_bytes) {
     return unlimited;
   }
-  const auto typical = [](std::size_t voxels) {
-    return MapCapacity{
-        voxels, std::max<std::size_t>(1, voxels / 4), std::max<std::size_t>(1, 2 * voxels)};
+  const auto typical = [&](std::size_t voxels) {
+    const std::size_t bricks = std::max<std::size_t>(1, voxels / 4);
+    return MapCapacity{voxels, bricks, std::max<std::size_t>(1, 2 * voxels), counts_merged};
   };
   std::size_t voxels = 1;
   for (std::size_t step = MapOptions::kMaxCapacity; step > 0; step /= 2) {  // the largest that fits
@@ -59,7 +63,7 @@ inline MapCapacity map_capacity(const MapOptions& options) {
     }
   }
   MapCapacity capacity = typical(voxels);
-  capacity.chunks += (options.max_bytes - capacity.bytes()) / MapCapacity::kBytesPerChunk;
+  capacity.chunks += (options.max_bytes - capacity.bytes()) / capacity.bytes_per_chunk();
   capacity.chunks = std::min(capacity.chunks, unlimited.chunks);
   return capacity;
 }

@@ -25,15 +25,21 @@ class SurfaceStorage {
   }
 
  public:
-  explicit SurfaceStorage(std::size_t capacity)
-      : chunk_ids_(capacity),
-        chunks_(allocate_uninitialized<PointChunk>(capacity)),
-        normals_(allocate_uninitialized<NormalChunk>(capacity)) {}
+  explicit SurfaceStorage(const MapCapacity& capacity)
+      : bytes_per_chunk_(capacity.bytes_per_chunk()),
+        chunk_ids_(capacity.chunks),
+        chunks_(allocate_uninitialized<PointChunk>(capacity.chunks)),
+        normals_(allocate_uninitialized<NormalChunk>(capacity.chunks)),
+        merged_(
+            capacity.counts_merged ? allocate_uninitialized<MergedCounts>(capacity.chunks)
+                                   : nullptr) {}
 
   const PointChunk* chunks() const noexcept { return chunks_.get(); }
   const NormalChunk* normals() const noexcept { return normals_.get(); }
   const PointChunk& chunk(std::uint32_t id) const noexcept { return chunks_[id]; }
   const NormalChunk& normals(std::uint32_t chunk) const noexcept { return normals_[chunk]; }
+  /// How many points the one in `lane` stands for. Only with MapCapacity::counts_merged.
+  int merged_points(std::uint32_t chunk, int lane) const noexcept { return merged_[chunk][lane]; }
   /// Starts to load what an append to the surface at `head` touches.
   [[gnu::always_inline]] void prefetch_chunk(std::uint32_t head) const noexcept {
     __builtin_prefetch(&chunks_[head]);
@@ -77,10 +83,19 @@ class SurfaceStorage {
     }
     chunks_[last].set_position(lane, point);
     normals_[last].set(lane, normal);
+    if (merged_ != nullptr) {
+      merged_[last][lane] = 1;
+    }
     surface.size = static_cast<std::uint8_t>((surface.size + 1) & 0x7f);
     update_direction(head, normal);
     ++point_count_;
     return last;
+  }
+
+  /// Moves a point, which then stands for one point more. Only with MapCapacity::counts_merged.
+  void replace(std::uint32_t chunk, int lane, const WrappedPoint& point) noexcept {
+    chunks_[chunk].set_position(lane, point);
+    ++merged_[chunk][lane];
   }
 
   /// Returns all chunks of a surface. Whatever links to it must be changed by the caller.
@@ -94,9 +109,7 @@ class SurfaceStorage {
   }
 
  protected:
-  std::size_t chunk_bytes() const noexcept {
-    return chunk_ids_.high_water() * MapCapacity::kBytesPerChunk;
-  }
+  std::size_t chunk_bytes() const noexcept { return chunk_ids_.high_water() * bytes_per_chunk_; }
   void clear_surfaces() noexcept {
     chunk_ids_.clear();
     point_count_ = 0;
@@ -179,9 +192,13 @@ class SurfaceStorage {
     }
   }
 
+  using MergedCounts = std::uint8_t[kLanes];
+
+  std::size_t bytes_per_chunk_;
   IndexAllocator chunk_ids_;
   RawArray<PointChunk> chunks_;
   RawArray<NormalChunk> normals_;
+  RawArray<MergedCounts> merged_;  // null unless they are counted
   std::size_t point_count_ = 0;
 };
 

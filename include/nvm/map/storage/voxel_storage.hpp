@@ -30,7 +30,7 @@ class VoxelStorage : public SurfaceStorage {
 
  public:
   explicit VoxelStorage(const MapCapacity& capacity)
-      : SurfaceStorage(capacity.chunks),
+      : SurfaceStorage(capacity),
         voxel_ids_(capacity.voxels),
         brick_ids_(capacity.bricks),
         places_(allocate_uninitialized<std::uint32_t>(capacity.voxels)),
