@@ -14,9 +14,9 @@ namespace nvm::lio {
 /// The returns of a scan that are matched to the map, spread evenly over its surfaces.
 struct KeypointOptions {
   /// At most one keypoint in each cube of this edge [m], positive.
-  double spacing = 0.35;
+  double spacing = 0.25;
   /// Keypoints at most, 10 to 100000.
-  std::size_t max_count = 1500;
+  std::size_t max_count = 2000;
 
   void validate() const;
 };

@@ -38,7 +38,7 @@ struct MeasurementOptions {
   /// Normalised residuals beyond this pull less than their square (Huber), positive.
   double huber = 2.0;
   /// Residuals that share map points err together: how many count as one, at least 1.
-  double correlation = 4.0;
+  double correlation = 2.0;
   /// Residuals that an update needs, at least 6.
   std::size_t min_residuals = 50;
   /// Directions of the pose with a smaller share of the information are left to the IMU, 0 to 1
