@@ -16,7 +16,7 @@ struct KeypointOptions {
   /// At most one keypoint in each cube of this edge [m], positive.
   double spacing = 0.25;
   /// Keypoints at most, 10 to 100000.
-  std::size_t max_count = 2000;
+  std::size_t max_count = 1500;
 
   void validate() const;
 };
