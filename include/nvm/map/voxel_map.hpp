@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <stdexcept>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 #include "nvm/core/executor.hpp"
@@ -59,14 +58,8 @@ class VoxelMap {
       : options_((options.validate(), options)),
         lattice_(options.voxel_size),
         capacity_(detail::map_capacity(options)),
-        storage_(capacity_) {
-    gate_.min_surface_dot = detail::dot_threshold(options.max_surface_angle);
-    gate_.min_point_dot = detail::dot_threshold(options.max_point_angle);
-    // Two degrees cover the rounding of the two normals and of the direction.
-    constexpr double kRounding = 0.035;
-    gate_.all_points_dot = detail::dot_threshold(
-        std::max(0.0, options.max_point_angle - detail::kTightAngle - kRounding));
-  }
+        storage_(capacity_),
+        gate_(detail::normal_gate(options)) {}
 
   const MapOptions& options() const noexcept { return options_; }
 
@@ -92,11 +85,9 @@ class VoxelMap {
     const auto fill = [&](std::size_t begin, std::size_t end, detail::PointBlock& block) {
       for (std::size_t i = begin; i < end; ++i) {
         block.set_position(i - begin, nvm::position(points[i]));
-      }
-      block.locate(T_map_scan, lattice_);
-      for (std::size_t i = begin; i < end; ++i) {
         block.set_normal(i - begin, nvm::position(normals[i]));
       }
+      block.locate(T_map_scan, lattice_);
       block.turn_normals(T_map_scan);
     };
     return insert_blocks(static_cast<std::size_t>(points.size()), T_map_scan, fill, executor);
@@ -301,7 +292,7 @@ class VoxelMap {
   detail::MapCapacity capacity_;
   detail::VoxelStorage storage_;
   detail::VoxelCache cache_;
-  detail::NormalGate gate_{};
+  detail::NormalGate gate_;
 };
 
 static_assert(is_map_v<VoxelMap>);

@@ -110,7 +110,8 @@ void erase_from_voxel(
 template <class Region>
 void erase_region(VoxelStorage& storage, const Lattice& lattice, const Region& region) {
   const double margin = 1e-9 * (1.0 + region.extent());
-  storage.for_each_voxel_near(
+  for_each_voxel_near(
+      storage,
       lattice,
       region.middle(),
       region.extent() + margin,

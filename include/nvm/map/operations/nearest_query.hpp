@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "nvm/map/map_options.hpp"
 #include "nvm/map/operations/candidates.hpp"
 #include "nvm/map/storage/lanes.hpp"
 #include "nvm/map/storage/lattice.hpp"
@@ -38,6 +39,18 @@ struct NormalGate {
     return lanes_facing(normals, normal, min_point_dot);
   }
 };
+
+/// The gate of a map with these options, but for the query's normal.
+inline NormalGate normal_gate(const MapOptions& options) {
+  // Two degrees cover the rounding of the two normals and of the direction.
+  constexpr double kRounding = 0.035;
+  NormalGate gate{};
+  gate.min_surface_dot = dot_threshold(options.max_surface_angle);
+  gate.min_point_dot = dot_threshold(options.max_point_angle);
+  gate.all_points_dot =
+      dot_threshold(std::max(0.0, options.max_point_angle - kTightAngle - kRounding));
+  return gate;
+}
 
 /// Reads every surface, and the points whose own normals agree with the query's: a facing filter
 /// without sides.

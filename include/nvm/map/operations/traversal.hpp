@@ -16,6 +16,37 @@
 
 namespace nvm::detail {
 
+/// Like VoxelStorage::for_each_voxel, for the bricks of which a part lies within `radius` [m] of
+/// `center`, and maybe others.
+template <class Visitor>
+void for_each_voxel_near(
+    const VoxelStorage& storage,
+    const Lattice& lattice,
+    const Eigen::Vector3d& center,
+    double radius,
+    Visitor&& visit) {
+  const double bricks_per_meter = lattice.voxels_per_meter() / kBrickEdge;
+  const Eigen::Array3d low = ((center.array() - radius) * bricks_per_meter).floor();
+  const Eigen::Array3d high = ((center.array() + radius) * bricks_per_meter).floor();
+  const auto bricks = static_cast<double>(storage.brick_count());
+  if (!((high - low + 1.0).prod() < bricks)) {  // cheaper to look at all
+    storage.for_each_voxel(visit);
+    return;
+  }
+  const VoxelIndex first = low.cast<std::int32_t>();
+  const VoxelIndex last = high.cast<std::int32_t>();
+  for (std::int32_t z = first.z(); z <= last.z(); ++z) {
+    for (std::int32_t y = first.y(); y <= last.y(); ++y) {
+      for (std::int32_t x = first.x(); x <= last.x(); ++x) {
+        const std::uint32_t id = storage.find_brick(index_key({x, y, z}));
+        if (id != kNone) {
+          storage.visit_brick(id, visit);
+        }
+      }
+    }
+  }
+}
+
 /// Calls visit(PointId) for each point of the surface at `head`.
 template <class Visitor>
 void for_each_id(const VoxelStorage& storage, std::uint32_t head, Visitor&& visit) {
@@ -114,7 +145,7 @@ void for_each_within(
       });
     }
   };
-  storage.for_each_voxel_near(lattice, center, radius, visit_voxel);
+  for_each_voxel_near(storage, lattice, center, radius, visit_voxel);
 }
 
 inline MapStats count_all(const VoxelStorage& storage) {

@@ -135,33 +135,6 @@ class VoxelStorage : public SurfaceStorage {
   /// All bricks have ids below this.
   std::uint32_t brick_high_water() const noexcept { return brick_ids_.high_water(); }
 
-  /// Like for_each_voxel, for the bricks of which a part lies within `radius` [m] of `center`, and
-  /// maybe others.
-  template <class Visitor>
-  void for_each_voxel_near(
-      const Lattice& lattice, const Eigen::Vector3d& center, double radius, Visitor&& visit) const {
-    const double bricks_per_meter = lattice.voxels_per_meter() / kBrickEdge;
-    const Eigen::Array3d low = ((center.array() - radius) * bricks_per_meter).floor();
-    const Eigen::Array3d high = ((center.array() + radius) * bricks_per_meter).floor();
-    if (!((high - low + 1.0).prod() <
-          static_cast<double>(brick_count()))) {  // cheaper to look at all
-      for_each_voxel(visit);
-      return;
-    }
-    const VoxelIndex first = low.cast<std::int32_t>();
-    const VoxelIndex last = high.cast<std::int32_t>();
-    for (std::int32_t z = first.z(); z <= last.z(); ++z) {
-      for (std::int32_t y = first.y(); y <= last.y(); ++y) {
-        for (std::int32_t x = first.x(); x <= last.x(); ++x) {
-          const std::uint32_t id = table_.find(index_key({x, y, z}));
-          if (id != kNone) {
-            visit_brick(id, visit);
-          }
-        }
-      }
-    }
-  }
-
   std::size_t voxel_count() const noexcept { return voxel_ids_.taken(); }
   std::size_t brick_count() const noexcept { return brick_ids_.taken(); }
   /// All voxels have ids below this.
