@@ -25,19 +25,12 @@ class PointMerger {
 
   bool is_on() const noexcept { return max_merged_ > 1; }
 
-  /// Merges a point with the nearest point of `chunk`.
-  [[gnu::noinline]] void merge_into_nearest(
+  /// Merges a point with the nearest point of `chunk`, unless all of them stand for enough.
+  [[gnu::always_inline]] void merge_into_nearest(
       std::uint32_t chunk, const WrappedPoint& point, const StoredNormal& normal) noexcept {
-    IntLanes distances;
-    sq_distances(storage_.chunk(chunk), LanePoint(point), distances);
-    const auto sq_distance = [&](int lane) {  // large where there is no point
-      return static_cast<std::uint32_t>(distances[lane]);
-    };
-    int nearest = 0;
-    for (int lane = 1; lane < kLanes; ++lane) {
-      nearest = sq_distance(lane) < sq_distance(nearest) ? lane : nearest;
+    if (!storage_.all_stand_for(chunk, max_merged_)) {  // in a place seen often they do
+      merge_into_nearest_of(chunk, point, normal);
     }
-    merge(chunk, nearest, point, normal);
   }
 
   /// Moves the stored point along `normal` towards the plane of `point`, by the share that one
@@ -74,6 +67,20 @@ class PointMerger {
   static constexpr double kMaxTurn = 0.3490658503988659;
   // As do points off the plane by more than a quarter of min_point_distance: the square of 4.
   static constexpr std::int64_t kSqOffsets = 16;
+
+  [[gnu::noinline]] void merge_into_nearest_of(
+      std::uint32_t chunk, const WrappedPoint& point, const StoredNormal& normal) noexcept {
+    IntLanes distances;
+    sq_distances(storage_.chunk(chunk), LanePoint(point), distances);
+    const auto sq_distance = [&](int lane) {  // large where there is no point
+      return static_cast<std::uint32_t>(distances[lane]);
+    };
+    int nearest = 0;
+    for (int lane = 1; lane < kLanes; ++lane) {
+      nearest = sq_distance(lane) < sq_distance(nearest) ? lane : nearest;
+    }
+    merge(chunk, nearest, point, normal);
+  }
 
   /// `divisor` is positive.
   static std::int32_t rounded_quotient(std::int32_t value, std::int32_t divisor) noexcept {

@@ -40,6 +40,14 @@ class SurfaceStorage {
   const NormalChunk& normals(std::uint32_t chunk) const noexcept { return normals_[chunk]; }
   /// How many points the one in `lane` stands for. Only with MapCapacity::counts_merged.
   int merged_points(std::uint32_t chunk, int lane) const noexcept { return merged_[chunk][lane]; }
+  /// True when no point of a chunk stands for fewer than `count`. Only with counts_merged.
+  bool all_stand_for(std::uint32_t chunk, int count) const noexcept {
+    std::uint8_t fewest = kNothingToMerge;
+    for (const std::uint8_t merged : merged_[chunk]) {
+      fewest = std::min(fewest, merged);
+    }
+    return fewest >= count;
+  }
   /// Starts to load what an append to the surface at `head` touches.
   [[gnu::always_inline]] void prefetch_chunk(std::uint32_t head) const noexcept {
     __builtin_prefetch(&chunks_[head]);
@@ -122,6 +130,9 @@ class SurfaceStorage {
     chunks_[id].next = kNone;
     chunks_[id].voxel = voxel;
     chunks_[id].clear_lanes(inside);
+    if (merged_ != nullptr) {
+      std::fill_n(merged_[id], kLanes, kNothingToMerge);
+    }
     return id;
   }
 
@@ -193,6 +204,7 @@ class SurfaceStorage {
   }
 
   using MergedCounts = std::uint8_t[kLanes];
+  static constexpr std::uint8_t kNothingToMerge = 255;  // of a lane without a point
 
   std::size_t bytes_per_chunk_;
   IndexAllocator chunk_ids_;
