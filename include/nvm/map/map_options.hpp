@@ -88,16 +88,11 @@ struct MapOptions {
         max_merged_points,
         "from 1 to 255");
     require(max_surfaces >= 1 && max_surfaces <= 8, "max_surfaces", max_surfaces, "from 1 to 8");
-    require(
-        max_surface_angle >= 0.0 && max_surface_angle <= kPi,
-        "max_surface_angle",
-        max_surface_angle,
-        "from 0 to pi rad");
-    require(
-        max_point_angle >= 0.0 && max_point_angle <= kPi,
-        "max_point_angle",
-        max_point_angle,
-        "from 0 to pi rad");
+    const auto require_angle = [](const char* name, double angle) {
+      require(angle >= 0.0 && angle <= kPi, name, angle, "from 0 to pi rad");
+    };
+    require_angle("max_surface_angle", max_surface_angle);
+    require_angle("max_point_angle", max_point_angle);
     require(
         eviction_radius >= voxel_size,
         "eviction_radius",
