@@ -14,7 +14,7 @@ namespace nvm::lio {
 /// The returns of a scan that are matched to the map, spread evenly over its surfaces.
 struct KeypointOptions {
   /// At most one keypoint in each cube of this edge [m], positive.
-  double spacing = 0.25;
+  double spacing = 0.35;
   /// Keypoints at most, 10 to 100000.
   std::size_t max_count = 1500;
 
