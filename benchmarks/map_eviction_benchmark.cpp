@@ -62,18 +62,11 @@ void update(benchmark::State& state) {
 
 BENCHMARK(walk_on)->Arg(10'000)->Arg(20'000)->Arg(4'000'000)->Iterations(1)->Unit(
     benchmark::kMillisecond);
-BENCHMARK_TEMPLATE(update, Eviction::kLeastRecentlyUsed)
-    ->Arg(125'000)
-    ->Arg(250'000)
-    ->Arg(500'000)
-    ->Arg(1'000'000)
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_TEMPLATE(update, Eviction::kRadius)
-    ->Arg(125'000)
-    ->Arg(250'000)
-    ->Arg(500'000)
-    ->Arg(1'000'000)
-    ->Unit(benchmark::kMillisecond);
+void map_sizes(benchmark::internal::Benchmark* update) {
+  update->ArgsProduct({{125'000, 250'000, 500'000, 1'000'000}})->Unit(benchmark::kMillisecond);
+}
+BENCHMARK_TEMPLATE(update, Eviction::kLeastRecentlyUsed)->Apply(map_sizes);
+BENCHMARK_TEMPLATE(update, Eviction::kRadius)->Apply(map_sizes);
 
 }  // namespace
 }  // namespace nvm::benchmarks
