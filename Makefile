@@ -25,9 +25,9 @@ format:  ## format every C++ file
 
 lint:  ## build with clang, clang-tidy on every file
 	scripts/setup.sh --developer
-	cmake --workflow --preset tidy
+	cmake --preset tidy && cmake --build --preset tidy
 
 coverage:  ## which lines the tests reach
 	scripts/setup.sh --developer
-	cmake --workflow --preset coverage
+	scripts/test.sh coverage
 	gcovr --root . --filter include --filter src build/coverage

@@ -42,11 +42,11 @@ Eigen::Vector3d box_corner(const Box& box, std::uint32_t corner) {
 
 /// What `nearest` hands through Embree to the filters.
 struct Context {
-  RTCIntersectContext base{};
+  EmbreeQuery base = make_embree_query();
   const Ray* ray = nullptr;
 };
 
-const Ray& ray_of(const RTCIntersectContext* context) {
+const Ray& ray_of(const EmbreeQuery* context) {
   return *reinterpret_cast<const Context*>(context)->ray;
 }
 
@@ -148,10 +148,9 @@ void EmbreeScene::add_triangles(
 
 std::optional<EmbreeScene::Candidate> EmbreeScene::nearest(const Ray& ray) const {
   Context context;
-  rtcInitIntersectContext(&context.base);
   context.ray = &ray;
   RTCRayHit ray_hit = to_embree(ray);
-  rtcIntersect1(embree_scene_, &context.base, &ray_hit);
+  intersect(embree_scene_, context.base, ray_hit);
 
   const auto [geometry, primitive] = std::pair(ray_hit.hit.geomID, ray_hit.hit.primID);
   const auto range = static_cast<double>(ray_hit.ray.tfar);

@@ -2,14 +2,13 @@
 // Copyright (c) 2026 The nvm authors
 #pragma once
 
-#include <embree3/rtcore.h>
-
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
+#include "sim/embree.hpp"
 #include "sim/scene.hpp"
 
 namespace nvm::sim {
