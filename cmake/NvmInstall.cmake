@@ -1,7 +1,8 @@
-# Install rules, the CMake package with its components, nvm.pc and the Debian package.
+# Install rules, the CMake package with its components, nvm.pc and the Debian packages.
 
 include(CMakePackageConfigHelpers)
 
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME dev)
 set(nvm_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/nvm)
 set(nvm_generated_dir ${PROJECT_BINARY_DIR}/package)
 get_property(nvm_compiled GLOBAL PROPERTY NVM_COMPONENTS)
@@ -61,7 +62,10 @@ install(
   FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h")
 
 if(TARGET nvm_program)
-  install(TARGETS nvm_program)
+  install(TARGETS nvm_program COMPONENT tools)
+  install(FILES ${PROJECT_SOURCE_DIR}/docs/nvm.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT tools)
+  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/nvm-tools
+          RENAME copyright COMPONENT tools)
 endif()
 
 configure_package_config_file(
@@ -75,17 +79,30 @@ install(FILES ${nvm_generated_dir}/nvm-config.cmake ${nvm_generated_dir}/nvm-con
 
 configure_file(${PROJECT_SOURCE_DIR}/cmake/nvm.pc.in ${nvm_generated_dir}/nvm.pc @ONLY)
 install(FILES ${nvm_generated_dir}/nvm.pc DESTINATION ${CMAKE_INSTALL_DATADIR}/pkgconfig)
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libnvm-dev
+        RENAME copyright)
 
-# `cpack -G DEB --config build/release/CPackConfig.cmake`
-set(CPACK_PACKAGE_NAME libnvm-dev)
+# `cpack -G DEB --config build/release/CPackConfig.cmake`: libnvm-dev, and nvm-tools where the program is built.
 set(CPACK_PACKAGE_CONTACT "The nvm authors <nvm@users.noreply.github.com>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY ${PROJECT_DESCRIPTION})
 set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_ALL dev)
+if(TARGET nvm_program)
+  list(APPEND CPACK_COMPONENTS_ALL tools)
+else()
+  set(CPACK_DEBIAN_DEV_PACKAGE_ARCHITECTURE all)
+endif()
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
-set(CPACK_DEBIAN_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "libeigen3-dev (>= 3.3), libnanoflann-dev (>= 1.4)")
-set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_DEV_PACKAGE_NAME libnvm-dev)
+set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libeigen3-dev (>= 3.3), libnanoflann-dev (>= 1.4)")
+# What the compiled components are linked with; the core needs none of it.
+set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS
+    "libassimp-dev, libembree-dev, libfmt-dev, librosbag-storage-dev, libtbb-dev, libyaml-cpp-dev, nlohmann-json3-dev")
+set(CPACK_DEBIAN_TOOLS_PACKAGE_NAME nvm-tools)
+set(CPACK_DEBIAN_TOOLS_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_TOOLS_PACKAGE_SHLIBDEPS ON)
 include(CPack)
