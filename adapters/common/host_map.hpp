@@ -130,7 +130,7 @@ class HostMap {
     if (!map_) {
       MapOptions options = options_.map;
       options.eviction = Eviction::kLeastRecentlyUsed;  // by radius: see evict()
-      map_ = std::make_unique<VoxelMap>(options);
+      map_.reset(new VoxelMap(options));  // ct-lio has a std::make_unique of its own: ambiguous
     }
     return *map_;
   }

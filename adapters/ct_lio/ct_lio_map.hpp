@@ -18,8 +18,9 @@ namespace nvm::adapters {
 /// An nvm map for ct-lio and the released II-NVM, in place of their `voxelHashMap` and of the
 /// bodies that search it, fill it and evict from it. docs/adapters/ct_lio.md says what to change.
 ///
-/// Defaults: normals are given; points without one are dropped, as the paper has it, and queries
-/// without one find nothing. With set_view_point(), MissingNormal::kViewDirection and the
+/// Defaults: normals are given; points without one are stored without a side, and queries without
+/// one see both sides: to drop them, as the paper has it, takes the floor, and with it the height,
+/// from a sensor with 16 beams. With set_view_point(), MissingNormal::kViewDirection and the
 /// functions without normals, it tells sides by the direction to the sensor.
 ///
 /// search() may run from many threads at once, every other member needs the map for itself.
@@ -32,10 +33,10 @@ class CtLioMap {
   /// Throws std::invalid_argument when the options are out of range.
   explicit CtLioMap(const HostOptions& options) { map_.configure(options); }
 
-  /// Two sides, normals in the points, points without one dropped.
+  /// Two sides, normals in the points, points without one in neither.
   static HostOptions defaults() {
     HostOptions options;
-    options.normals = {NormalSource::kPoint, NormalSource::kPoint, MissingNormal::kDrop};
+    options.normals = {NormalSource::kPoint, NormalSource::kPoint, MissingNormal::kUngated};
     return options;
   }
   /// The host's own map, for comparisons; lengths [m] as the host's options have them. The host

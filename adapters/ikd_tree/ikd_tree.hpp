@@ -36,7 +36,9 @@ struct IkdBox {
 ///
 /// Defaults: normals from the points; where a point has none, the direction to the view point;
 /// without a view point, both sides. Voxels of the host's filter size, at least 0.3 m, which keeps
-/// the density rule; points that the host has thinned are not thinned again.
+/// the density rule. Points of one side stay 0.1 m apart: ikd-Tree deletes the points that it
+/// replaces; a map that keeps them all has so many that the nearest five lie on one scan line,
+/// where they do not determine a plane.
 ///
 /// Nearest_Search may be called from many threads at once, every other member needs the tree for
 /// itself. Constructing one costs nothing.
@@ -51,10 +53,7 @@ class IkdTree {
   /// For the host's use; nothing here reads it.
   PointVector PCL_Storage;
 
-  IkdTree() {
-    options_.map.min_point_distance = 0.0;
-    options_.map.voxel_size = kFromFilter;
-  }
+  IkdTree() { options_.map.voxel_size = kFromFilter; }
   IkdTree(const IkdTree&) = delete;  // Root_Node points into the object
   IkdTree& operator=(const IkdTree&) = delete;
 

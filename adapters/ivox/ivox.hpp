@@ -27,8 +27,8 @@ enum class KeyRounding { kRound, kFloor };
 /// An nvm map with the members of iVox that faster-lio and Point-LIO use.
 ///
 /// Defaults: normals from the points; where a point has none, the direction to the view point;
-/// without a view point, both sides. Points that the host has thinned are not thinned again; a side
-/// of a voxel keeps 20.
+/// without a view point, both sides. Points of one side stay 0.1 m apart, so that the nearest five
+/// do not lie on one scan line, where they do not determine a plane; a side of a voxel keeps 20.
 ///
 /// GetClosestPoint() is const, lock-free and does not allocate once `closest` has grown: it may run
 /// under std::execution::par_unseq.
@@ -61,7 +61,6 @@ class IVox {
     static nvm::adapters::HostOptions defaults() {
       nvm::adapters::HostOptions options;
       options.map.voxel_size = kFromResolution;
-      options.map.min_point_distance = 0.0;
       return options;
     }
   };
@@ -71,10 +70,11 @@ class IVox {
 
   /// Where the sensor is, map frame [m]: once per scan, before AddPoints().
   void set_view_point(double x, double y, double z) noexcept { map_.set_view_point({x, y, z}); }
-  /// One line when the voxels are too small for points `filter_size_map` [m] apart; else empty.
-  std::string density_warning(double filter_size_map) const {
-    return nvm::adapters::density_warning(
-        map_.options().map.voxel_size, filter_size_map, kPlaneNeighbors);
+  /// One line when points that are min_point_distance apart are too few for a plane; else empty.
+  /// The host's filter size does not matter: it adds every point that finds too few.
+  std::string density_warning() const {
+    const nvm::MapOptions& map = map_.options().map;
+    return nvm::adapters::density_warning(map.voxel_size, map.min_point_distance, kPlaneNeighbors);
   }
   const nvm::adapters::HostMap& map() const noexcept { return map_; }
 

@@ -64,6 +64,7 @@ TEST(IkdTree, ServesTheCallsOfFastLio) {
   std::mt19937_64 rng = test::rng();
   const PointVector scan = test::host_points(test::uniform_cloud(2000, 3.0, {0, 0, 0}, rng).points);
   std::vector<BoxPointType> boxes;
+  ikdtree.options().map.min_point_distance = 0.0;
   EXPECT_EQ(ikdtree.Root_Node, nullptr);
   map_one_scan(scan, boxes);
   EXPECT_NE(ikdtree.Root_Node, nullptr);
