@@ -2,6 +2,9 @@
 // Copyright (c) 2026 The nvm authors
 #pragma once
 
+// Without nanoflann NormalMethod::kKdTree is refused.
+#if __has_include(<nanoflann.hpp>)
+
 #include <cstddef>
 #include <cstdint>
 #include <nanoflann.hpp>
@@ -95,3 +98,5 @@ class KdTreeSearch {
 };
 
 }  // namespace nvm::detail
+
+#endif

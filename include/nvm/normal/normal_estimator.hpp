@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
 #include <type_traits>
 #include <vector>
 
@@ -189,7 +190,11 @@ class NormalEstimator {
         return solve_with(
             detail::BlockSearch(detail::PointItems{cloud_}, tree_), queries, result, executor);
       case NormalMethod::kKdTree:
+#if __has_include(<nanoflann.hpp>)
         return solve_with(detail::KdTreeSearch(cloud_), queries, result, executor);
+#else
+        throw std::invalid_argument("nvm: method kKdTree needs nanoflann, which was not found");
+#endif
       case NormalMethod::kPerCell:
         return solve_with(
             detail::BlockSearch(detail::CellItems{grid_.means(), grid_.cells()}, tree_),

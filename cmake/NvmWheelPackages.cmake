@@ -1,0 +1,36 @@
+# C++ libraries that come as Python wheels (build-system.requires of pyproject.toml), where pip builds the package. Links to
+# them lie in the build folder: pip puts them into a new folder each time, which would make the compiler's cache and the
+# build folder useless.
+
+find_package(Python 3.10 REQUIRED COMPONENTS Interpreter Development.Module OPTIONAL_COMPONENTS Development.SABIModule)
+
+# nvm_use_wheel_package(NAME FILE): finds what the wheel NAME brings, from the folder two above its FILE.
+function(nvm_use_wheel_package name file)
+  execute_process(
+    COMMAND
+      ${Python_EXECUTABLE} -c "
+from importlib.metadata import distribution
+found = next(f for f in distribution('${name}').files if f.match('${file}'))
+print(found.locate().resolve().parent)"
+    OUTPUT_VARIABLE folder
+    OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET
+    RESULT_VARIABLE failed)
+  if(failed)
+    return()
+  endif()
+  string(REGEX REPLACE "/(lib/cmake|share)/[^/]+(/cmake)?$" "" prefix ${folder})
+  set(link ${PROJECT_BINARY_DIR}/wheels/${name})
+  file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/wheels)
+  file(REMOVE ${link})
+  file(CREATE_LINK ${prefix} ${link} SYMBOLIC)
+  list(PREPEND CMAKE_PREFIX_PATH ${link})
+  set(CMAKE_PREFIX_PATH ${CMAKE_PREFIX_PATH} PARENT_SCOPE)
+endfunction()
+
+nvm_use_wheel_package(cmeel-eigen "Eigen3Config.cmake")
+nvm_use_wheel_package(tbb-devel "TBBConfig.cmake")
+
+execute_process(
+  COMMAND ${Python_EXECUTABLE} -m nanobind --cmake_dir
+  OUTPUT_VARIABLE nanobind_hints
+  OUTPUT_STRIP_TRAILING_WHITESPACE)

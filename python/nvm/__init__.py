@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: MIT
+# Copyright (c) 2026 The nvm authors
+"""A LiDAR voxel map that tells the two faces of a thin wall apart, and odometry on it.
+
+Metres, seconds, radians. ``T_map_scan`` maps scan coordinates to map coordinates. Normals have unit
+length and look back at the sensor. ``ValueError`` is for what a call was given, ``RuntimeError`` for
+files.
+"""
+
+from ._nvm import (
+    AlignResult,
+    InsertStats,
+    MapStats,
+    NormalEstimator,
+    NormalResult,
+    ScanAligner,
+    VoxelMap,
+    __version__,
+    estimate_normals,
+    load,
+    view_directions,
+)
+
+__all__ = [
+    "AlignResult",
+    "InsertStats",
+    "MapStats",
+    "NormalEstimator",
+    "NormalResult",
+    "ScanAligner",
+    "VoxelMap",
+    "__version__",
+    "estimate_normals",
+    "load",
+    "view_directions",
+]

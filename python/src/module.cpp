@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include <nanobind/stl/string.h>
+
+#include <string>
+
+#include "bind.hpp"
+#include "nvm/version.hpp"
+
+NB_MODULE(_nvm, module) {
+  module.doc() = "The compiled part of nvm.";
+  module.attr("__version__") = std::to_string(NVM_VERSION_MAJOR) + "." +
+                               std::to_string(NVM_VERSION_MINOR) + "." +
+                               std::to_string(NVM_VERSION_PATCH);
+  nvm::python::bind_voxel_map(module);
+  nvm::python::bind_normals(module);
+  nvm::python::bind_registration(module);
+}

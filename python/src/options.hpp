@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/string.h>
+
+#include <string>
+#include <type_traits>
+
+#include "option_lists.hpp"
+
+namespace nvm::python {
+
+namespace nb = nanobind;
+
+namespace detail {
+
+template <class Value>
+bool assign(nb::handle given, Value& value) {
+  return nb::try_cast<Value>(given, value);
+}
+
+template <class Enum, class Choices>
+bool assign(nb::handle given, Enum& value, const Choices& choices) {
+  std::string name;
+  if (!nb::try_cast<std::string>(given, name)) {
+    return false;
+  }
+  for (const auto& [text, choice] : choices) {
+    if (name == text) {
+      value = choice;
+      return true;
+    }
+  }
+  return false;
+}
+
+inline std::string allowed() { return "a number"; }
+template <class Choices>
+std::string allowed(const Choices& choices) {
+  std::string text = "one of";
+  for (const auto& choice : choices) {
+    text += std::string(" '") + choice.first + "'";
+  }
+  return text;
+}
+
+template <class Value>
+nb::object to_python(const Value& value) {
+  return nb::cast(value);
+}
+template <class Enum, class Choices>
+nb::object to_python(const Enum& value, const Choices& choices) {
+  for (const auto& [text, choice] : choices) {
+    if (value == choice) {
+      return nb::str(text);
+    }
+  }
+  return nb::none();
+}
+
+}  // namespace detail
+
+/// The options that `keywords` set, the others as the C++ defaults have them. Throws TypeError for
+/// an unknown name, ValueError for a value of the wrong type. Ranges are checked by who takes them.
+template <class Options>
+Options options_from(const nb::kwargs& keywords) {
+  Options options;
+  std::size_t known = 0;
+  visit_options(options, [&](const OptionText& text, auto& value, const auto&... choices) {
+    if (!keywords.contains(text.name)) {
+      return;
+    }
+    ++known;
+    const nb::object given = keywords[text.name];
+    if (!detail::assign(given, value, choices...)) {
+      const std::string message = std::string("nvm: ") + text.name + " = " +
+                                  nb::repr(given).c_str() + " must be " +
+                                  detail::allowed(choices...);
+      throw nb::value_error(message.c_str());
+    }
+  });
+  if (known != keywords.size()) {
+    std::string message = "nvm: unknown option; there are:";
+    visit_options(options, [&](const OptionText& text, auto&, const auto&...) {
+      message += std::string(" ") + text.name;
+    });
+    throw nb::type_error(message.c_str());
+  }
+  return options;
+}
+
+/// The options as a dict of names and values.
+template <class Options>
+nb::dict to_dict(Options options) {
+  nb::dict dict;
+  visit_options(options, [&](const OptionText& text, const auto& value, const auto&... choices) {
+    dict[text.name] = detail::to_python(value, choices...);
+  });
+  return dict;
+}
+
+/// The list of the options for a docstring in numpydoc's form, behind `head`. Lives forever, as
+/// nanobind wants it.
+template <class Options>
+const char* documented(const std::string& head) {
+  std::string text = head + "\n\nParameters\n----------\n";
+  Options options;
+  visit_options(options, [&](const OptionText& option, const auto& value, const auto&... choices) {
+    text += std::string(option.name) + " : default " +
+            nb::repr(detail::to_python(value, choices...)).c_str() + "\n    " + option.doc + "\n";
+  });
+  return (new std::string(text))->c_str();
+}
+
+}  // namespace nvm::python

@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/string.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "arrays.hpp"
+#include "bind.hpp"
+#include "nvm/map/serialization.hpp"
+#include "options.hpp"
+#include "shared_map.hpp"
+#include "threads.hpp"
+#include "voxel_map_docs.hpp"
+
+namespace nvm::python {
+
+namespace {
+
+using namespace nb::literals;
+
+InsertStats insert(SharedMap& self, nb::handle points, nb::handle normals, nb::handle T_map_scan) {
+  const Vectors positions(points, "points");
+  const Pose pose = pose_from(T_map_scan, "T_map_scan");
+  if (normals.is_none()) {
+    return self.write([&](VoxelMap& map) { return map.insert_unsided(positions, pose); });
+  }
+  const Vectors directions(normals, "normals");
+  require_same_size(directions.size(), "normals", positions.size(), "points");
+  return self.write([&](VoxelMap& map) { return map.insert(positions, directions, pose); });
+}
+
+/// The answers of a batch of queries, `count` places for each; empty places lie at infinity.
+struct Answers {
+  std::vector<double> distances;
+  std::vector<std::int64_t> rows;
+  std::vector<std::int64_t> counts;
+};
+
+/// Answers the queries from `begin` to `end`.
+void answer_block(
+    const VoxelMap& map,
+    const std::vector<std::uint32_t>& rows,
+    const Vectors& points,
+    const Vectors* normals,
+    const NearestSearch& search,
+    std::size_t begin,
+    std::size_t end,
+    Answers& answers) {
+  VoxelMap::QueryContext context;
+  std::array<Neighbor, kMaxNeighbors> found;
+  for (std::size_t i = begin; i < end; ++i) {
+    const std::size_t count =
+        normals != nullptr
+            ? map.nearest(points[i], (*normals)[i].cast<float>(), search, found.data(), context)
+            : map.nearest(points[i], search, found.data(), context);
+    answers.counts[i] = static_cast<std::int64_t>(count);
+    for (std::size_t j = 0; j < count; ++j) {
+      answers.distances[i * search.count + j] =
+          std::sqrt(static_cast<double>(found[j].sq_distance));
+      answers.rows[i * search.count + j] = rows[found[j].id];
+    }
+  }
+}
+
+Answers answer(
+    const SharedMap& self,
+    const Vectors& points,
+    const Vectors* normals,
+    const NearestSearch& search,
+    const lio::Executor& executor) {
+  constexpr std::size_t kBlock = 512;
+  return self.read([&](const VoxelMap& map) {
+    const std::size_t places = points.size() * search.count;
+    Answers answers{
+        std::vector<double>(places, std::numeric_limits<double>::infinity()),
+        std::vector<std::int64_t>(places, static_cast<std::int64_t>(map.size())),
+        std::vector<std::int64_t>(points.size())};
+    const auto rows = self.rows(map);
+    executor.for_blocks(points.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+      answer_block(map, *rows, points, normals, search, begin, end, answers);
+    });
+    return answers;
+  });
+}
+
+nb::tuple nearest(
+    const SharedMap& self,
+    nb::handle points,
+    nb::handle normals,
+    std::size_t k,
+    double max_distance,
+    int threads) {
+  constexpr std::size_t kWorthThreads = 4096;
+  require(k >= 1 && k <= kMaxNeighbors, "k", k, "from 1 to 64");
+  require(max_distance >= 0.0, "max_distance", max_distance, "zero or more [m]");
+  const Vectors positions(points, "points");
+  std::optional<Vectors> directions;
+  if (!normals.is_none()) {
+    directions.emplace(normals, "normals");
+    require_same_size(directions->size(), "normals", positions.size(), "points");
+  }
+  Answers answers = answer(
+      self,
+      positions,
+      directions ? &*directions : nullptr,
+      {k, max_distance},
+      make_executor(threads, positions.size(), kWorthThreads));
+  return nb::make_tuple(
+      to_array(std::move(answers.distances), k),
+      to_array(std::move(answers.rows), k),
+      to_array(std::move(answers.counts)));
+}
+
+Array<std::int64_t> within(const SharedMap& self, nb::handle center, double radius) {
+  require(radius >= 0.0, "radius", radius, "zero or more [m]");
+  const Eigen::Vector3d middle = vector_from(center, "center");
+  return to_array(self.read([&](const VoxelMap& map) {
+    const auto rows = self.rows(map);
+    std::vector<std::int64_t> found;
+    map.for_each_within(middle, std::min(radius, 1e9), [&](const Neighbor& point) {
+      found.push_back((*rows)[point.id]);
+    });
+    std::sort(found.begin(), found.end());
+    return found;
+  }));
+}
+
+Array<double> points_of(const SharedMap& self) {
+  return to_array(
+      self.read([](const VoxelMap& map) {
+        std::vector<double> values;
+        values.reserve(3 * map.size());
+        SharedMap::for_each(map, [&](const Neighbor& point) {
+          values.insert(values.end(), point.position.data(), point.position.data() + 3);
+        });
+        return values;
+      }),
+      3);
+}
+
+Array<float> normals_of(const SharedMap& self) {
+  return to_array(self.read([](const VoxelMap& map) {
+    std::vector<Eigen::Vector3f> normals;
+    normals.reserve(map.size());
+    SharedMap::for_each(map, [&](const Neighbor& p) { normals.push_back(map.normal(p.id)); });
+    return normals;
+  }));
+}
+
+Array<std::uint8_t> sides_of(const SharedMap& self) {
+  return to_array(self.read([](const VoxelMap& map) {
+    std::vector<std::uint8_t> sides;
+    sides.reserve(map.size());
+    SharedMap::for_each(map, [&](const Neighbor& point) {
+      sides.push_back(static_cast<std::uint8_t>(map.side(point.id)));
+    });
+    return sides;
+  }));
+}
+
+nb::bytes archived(const SharedMap& self) {
+  const auto bytes = self.read([](const VoxelMap& map) { return MapArchive::write(map); });
+  return nb::bytes(bytes.data(), bytes.size());
+}
+
+void restore(SharedMap& self, const nb::bytes& state) {
+  const auto* begin = static_cast<const std::uint8_t*>(state.data());
+  const std::vector<std::uint8_t> bytes(begin, begin + state.size());
+  const nb::gil_scoped_release no_gil;
+  new (&self) SharedMap(MapArchive::read(bytes));
+}
+
+std::string described(const SharedMap& self) {
+  const MapStats stats = self.read([](const VoxelMap& map) { return map.stats(); });
+  return "<nvm.VoxelMap: " + std::to_string(stats.points) + " points in " +
+         std::to_string(stats.voxels) + " voxels, " + std::to_string(stats.two_sided_voxels) +
+         " of them with two sides>";
+}
+
+void bind_stats(nb::module_& module) {
+  nb::class_<InsertStats>(module, "InsertStats", kInsertStatsDoc)
+      .def_ro("stored", &InsertStats::stored)
+      .def_ro("too_close", &InsertStats::too_close)
+      .def_ro("surface_full", &InsertStats::surface_full)
+      .def_ro("no_normal", &InsertStats::no_normal)
+      .def_ro("non_finite", &InsertStats::non_finite)
+      .def_ro("out_of_range", &InsertStats::out_of_range)
+      .def_ro("map_full", &InsertStats::map_full)
+      .def_ro("new_voxels", &InsertStats::new_voxels)
+      .def_ro("evicted_voxels", &InsertStats::evicted_voxels)
+      .def_ro("evicted_points", &InsertStats::evicted_points);
+  nb::class_<MapStats>(module, "MapStats", "What a map holds.")
+      .def_ro("points", &MapStats::points)
+      .def_ro("voxels", &MapStats::voxels)
+      .def_ro("two_sided_voxels", &MapStats::two_sided_voxels)
+      .def_ro("surfaces", &MapStats::surfaces)
+      .def_ro("memory_bytes", &MapStats::memory_bytes);
+}
+
+void bind_erasing(nb::class_<SharedMap>& map) {
+  map.def(
+         "erase_box",
+         [](SharedMap& self, nb::handle min, nb::handle max) {
+           const Eigen::Vector3d low = vector_from(min, "min"), high = vector_from(max, "max");
+           return self.write([&](VoxelMap& m) { return m.erase_box(low, high); });
+         },
+         "min"_a.none(),
+         "max"_a.none(),
+         "Erase the points of the box from `min` to `max` (3,) [m], inclusive; return how many.")
+      .def(
+          "erase_within",
+          [](SharedMap& self, nb::handle center, double radius) {
+            const Eigen::Vector3d middle = vector_from(center, "center");
+            return self.write([&](VoxelMap& m) { return m.erase_within(middle, radius); });
+          },
+          "center"_a.none(),
+          "radius"_a,
+          "Erase the points at most `radius` [m] from `center` (3,) [m]; return how many.")
+      .def(
+          "erase_voxels_beyond",
+          [](SharedMap& self, nb::handle center, double radius) {
+            const Eigen::Vector3d middle = vector_from(center, "center");
+            return self.write([&](VoxelMap& m) { return m.erase_voxels_beyond(middle, radius); });
+          },
+          "center"_a.none(),
+          "radius"_a,
+          "Erase the voxels whose centre is farther than `radius` [m] from `center` (3,) [m]; "
+          "return how many points.")
+      .def(
+          "clear",
+          [](SharedMap& self) { self.write([](VoxelMap& m) { return m.clear(); }); },
+          "Erase everything.");
+}
+
+void bind_contents(nb::class_<SharedMap>& map) {
+  map.def(
+         "__len__",
+         [](const SharedMap& self) {
+           return self.read([](const VoxelMap& m) { return m.size(); });
+         })
+      .def_prop_ro(
+          "points", &points_of, nb::rv_policy::automatic, "(N, 3) float64 [m], map frame: a copy.")
+      .def_prop_ro(
+          "normals",
+          &normals_of,
+          nb::rv_policy::automatic,
+          "(N, 3) float32, unit length; zero where there is none: a copy.")
+      .def_prop_ro(
+          "sides",
+          &sides_of,
+          nb::rv_policy::automatic,
+          "(N,) uint8: 0 front of its voxel, 1 back: a copy.")
+      .def_prop_ro(
+          "options",
+          [](const SharedMap& self) {
+            return to_dict(self.read([](const VoxelMap& m) { return m.options(); }));
+          },
+          "dict: the options that the map was made with.")
+      .def(
+          "stats",
+          [](const SharedMap& self) {
+            return self.read([](const VoxelMap& m) { return m.stats(); });
+          },
+          "Count what the map holds.")
+      .def("__repr__", &described);
+}
+
+void bind_files(nb::class_<SharedMap>& map, nb::module_& module) {
+  map.def(
+         "save",
+         [](const SharedMap& self, const nb::object& path) {
+           const std::string name = nb::str(path).c_str();
+           self.read([&](const VoxelMap& m) { save_map(m, name); });
+         },
+         "path"_a,
+         "Write the map to a file, bit by bit. RuntimeError when that fails.")
+      .def("__getstate__", &archived)
+      .def("__setstate__", &restore);
+  module.def(
+      "load",
+      [](const nb::object& path) {
+        const std::string name = nb::str(path).c_str();
+        const nb::gil_scoped_release no_gil;
+        return new SharedMap(load_map(name));  // Python owns it
+      },
+      "path"_a,
+      "Read a map that `VoxelMap.save` or ``nvm run`` wrote. RuntimeError, with what is wrong, "
+      "when "
+      "the file is no such map.");
+}
+
+}  // namespace
+
+void bind_voxel_map(nb::module_& module) {
+  bind_stats(module);
+  nb::class_<SharedMap> map(module, "VoxelMap", documented<MapOptions>(kVoxelMapDoc));
+  map.def(
+         "__init__",
+         [](SharedMap* self, const nb::kwargs& options) {
+           new (self) SharedMap(VoxelMap(options_from<MapOptions>(options)));
+         },
+         "options"_a)
+      .def(
+          "insert",
+          &insert,
+          "points"_a.none(),
+          "normals"_a.none(),
+          "T_map_scan"_a = nb::none(),
+          kInsertDoc)
+      .def(
+          "nearest",
+          &nearest,
+          "points"_a.none(),
+          "normals"_a = nb::none(),
+          "k"_a = 5,
+          "max_distance"_a = 1.0,
+          nb::kw_only(),
+          "threads"_a = 0,
+          kNearestDoc)
+      .def("within", &within, "center"_a.none(), "radius"_a, kWithinDoc);
+  bind_erasing(map);
+  bind_contents(map);
+  bind_files(map, module);
+}
+
+}  // namespace nvm::python

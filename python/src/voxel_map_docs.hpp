@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+namespace nvm::python {
+
+inline constexpr char kVoxelMapDoc[] = R"(A voxel map that tells the two faces of a thin wall apart.
+
+Points are stored with their normals, in voxels that keep a front and a back surface; queries with
+a normal meet only the faces that look back at it. Bounded: a full map drops the voxels that were
+not used for longest. The same input gives the same map and the same answers, for any number of
+threads.
+
+Arrays may be float32 or float64, of any strides; they are read where they lie. Threads may use one
+map at once: queries run side by side, a change waits for them and they for it. Maps can be pickled
+and copied. Points are told by their row in `points`, `normals` and `sides`, which holds until the
+map is next changed.)";
+
+inline constexpr char kInsertDoc[] = R"(Insert a scan.
+
+Parameters
+----------
+points : (N, 3) float
+    [m], in the frame scan.
+normals : (N, 3) float or None
+    Unit vectors in the frame scan that look back at the sensor, from `estimate_normals` or
+    `view_directions`. None: all points go to the front, and only queries without a normal find
+    them.
+T_map_scan : (4, 4) float, optional
+    Pose of the scan in the map; the identity without it.
+
+Returns
+-------
+InsertStats
+    How many points were stored, and why the others were not. Bad points are no error.
+
+Raises
+------
+ValueError
+    For arrays of other shapes, unequal lengths, or a pose that is not rigid.)";
+
+inline constexpr char kNearestDoc[] = R"(Find the nearest stored points of many points.
+
+Looks at the 27 voxels around each point, so neighbours lie at most one to two voxel sizes away.
+
+Parameters
+----------
+points : (M, 3) float
+    [m], map frame.
+normals : (M, 3) float, optional
+    Unit vectors in the map frame that look back at the sensor. Only surfaces and points that agree
+    with them are found, none for a vector that is not of unit length. None: both sides.
+k : int
+    How many, 1 to 64.
+max_distance : float
+    [m].
+threads : int
+    0: all cores, for batches that are worth it. The answer does not depend on it.
+
+Returns
+-------
+distances : (M, k) float64
+    [m], ascending; inf where there are fewer than k.
+indices : (M, k) int64
+    Rows of `points`, `normals` and `sides`; ``len(map)`` where there are fewer than k.
+counts : (M,) int64
+    How many were found.)";
+
+inline constexpr char kWithinDoc[] = R"(Find all stored points in a ball.
+
+Parameters
+----------
+center : (3,) float
+    [m], map frame.
+radius : float
+    [m], of any size.
+
+Returns
+-------
+(K,) int64
+    Rows of `points`, `normals` and `sides`, ascending.)";
+
+inline constexpr char kInsertStatsDoc[] = R"(What became of the points of an insertion.
+
+Attributes
+----------
+stored : int
+too_close : int
+    To a point of the same surface (min_point_distance); with max_merged_points they moved it.
+surface_full : int
+    points_per_surface was reached.
+no_normal : int
+    Zero, non-finite or not of unit length.
+non_finite : int
+    A coordinate was NaN or infinite.
+out_of_range : int
+    Beyond +-2**20 voxels.
+map_full : int
+    No room even after evicting every other voxel.
+new_voxels, evicted_voxels, evicted_points : int)";
+
+}  // namespace nvm::python

@@ -1,0 +1,20 @@
+#!/usr/bin/env bash
+# Builds the wheel as a user's pip does, installs it in an empty virtual environment and tests it there.
+set -euo pipefail
+source "$(dirname "$0")/environment.sh"
+folder=build/python
+rm -rf "$folder" && mkdir -p "$folder"
+python3 -m venv "$folder/venv"
+python="$PWD/$folder/venv/bin/python"
+# No library of the system is found, as on a machine that has only a compiler.
+"$python" -m pip wheel --quiet --no-deps --wheel-dir "$folder" . \
+  --config-settings=cmake.define.CMAKE_FIND_USE_CMAKE_SYSTEM_PATH=OFF
+wheel=$(ls "$folder"/nvm-*.whl)
+"$python" -m pip install --quiet auditwheel "${wheel}[test]"
+"$python" -m auditwheel show "$wheel"
+"$python" -c 'import subprocess, sys, time
+begin = time.perf_counter()
+subprocess.run([sys.executable, "-c", "import nvm"], check=True)
+print(f"import nvm: {time.perf_counter() - begin:.2f} s, the interpreter included")'
+cd python/tests # not the root, whose folder python/nvm must not stand in for the installed package
+"$python" -m pytest
