@@ -1,0 +1,203 @@
+# SPDX-License-Identifier: MIT
+# Copyright (c) 2026 The nvm authors
+import struct
+
+import numpy as np
+import pytest
+
+pytest.importorskip("rosbags")
+from recordings import CLOUD, FORMATS, IMU, LIVOX, TF, livox_records, records, typestore, write
+
+from nvm.bags import BagError, Recording, is_bag
+from nvm.choice import choose
+from nvm.livox import livox_cdr_to_ros1
+from nvm.transforms import quaternion, rotation
+
+HALF = np.sqrt(0.5)
+
+
+def walk(rng):
+    """A maker of a recording of a LiDAR, an IMU and the transform between them."""
+
+    def make(m):
+        edges = [("base", "imu", (0, 0, 0.1), (0, 0, 0, 1)), ("base", "lidar", (1, 0, 0.4), (0, 0, HALF, HALF))]
+        yield "/tf_static", TF, 100.0, m.transforms(*edges)
+        for i in range(5):
+            time = 100.0 + 0.1 * i
+            yield "/points", CLOUD, time + 0.1, m.cloud(time, records(rng))
+            for j in range(10):
+                yield "/imu", IMU, time + 0.1, m.imu(time + 0.01 * j, (0.1, i, j), (0, 0, 9.8))
+
+    return make
+
+
+@pytest.mark.parametrize("form", FORMATS)
+def test_every_format_holds_the_same(rng, tmp_path, form):
+    path = write(tmp_path / "walk", form, walk(rng))
+    assert is_bag(path)
+    with Recording(path) as recording:
+        assert recording.format == ("ROS 1 bag" if form == "bag" else "ROS 2 bag")
+        topics = {t.name: t for t in recording.topics()}
+        assert {n: t.count for n, t in topics.items()} == {"/points": 5, "/imu": 50, "/tf_static": 1}
+        assert topics["/points"].points == 50 and topics["/points"].time_field == "t"
+        assert "x:f4" in topics["/points"].fields and topics["/imu"].frame == "imu"
+        messages = list(recording.messages(["/points", "/imu"]))
+    assert len(messages) == 55
+    assert {m.type for m in messages} == {"sensor_msgs/PointCloud2", "sensor_msgs/Imu"}
+    store = typestore(ros1=True)
+    first = store.deserialize_ros1(messages[0].data, CLOUD)
+    assert first.width == 50 and first.header.stamp.sec == 100
+    gyros = [
+        store.deserialize_ros1(m.data, IMU).angular_velocity for m in messages if m.topic == "/imu"
+    ]
+    assert [(g.y, g.z) for g in gyros] == [(i, j) for i in range(5) for j in range(10)]
+
+
+def test_a_part_of_a_bag_stands_for_the_whole(rng, tmp_path):
+    folder = write(tmp_path / "walk", "mcap", walk(rng))
+    part = next(folder.glob("*.mcap"))
+    with Recording(part) as recording:
+        assert len(list(recording.messages(["/points"]))) == 5
+    alone = tmp_path / "alone" / "x.mcap"
+    alone.parent.mkdir()
+    part.rename(alone)
+    with Recording(alone) as recording:
+        assert len(list(recording.messages(["/points"]))) == 5
+
+
+def test_the_extrinsic_comes_from_tf_static(rng, tmp_path):
+    with Recording(write(tmp_path / "walk", "db3", walk(rng))) as recording:
+        choice = choose(recording)
+    assert (choice.lidar.name, choice.imu.name) == ("/points", "/imu")
+    # A point 2 m in front of the LiDAR, which looks along y of base from (1, 0, 0.4).
+    p_imu = choice.T_imu_lidar @ [2, 0, 0, 1]
+    assert np.allclose(p_imu, [1, 2, 0.3, 1])
+    assert np.allclose(choice.extrinsic_numbers(), [1, 0, 0.3, 0, 0, HALF, HALF])
+    assert [r.split(":")[0] for r in choice.reasons] == ["lidar", "IMU", "T_imu_lidar"]
+
+
+def test_the_densest_cloud_with_times_and_the_nearest_imu_are_chosen(rng, tmp_path):
+    bare = np.dtype([("x", "f4"), ("y", "f4"), ("z", "f4")])
+
+    def make(m):
+        edges = [("base", "front", (1, 0, 0), (0, 0, 0, 1)), ("front", "front_imu", (0, 0, 0), (0, 0, 0, 1))]
+        yield "/tf_static", TF, 1.0, m.transforms(*edges, ("base", "imu", (0, 0, 0), (0, 0, 0, 1)))
+        for i in range(4):
+            yield "/depth/points", CLOUD, 1 + i, m.cloud(1 + i, records(rng, 900, bare), "base")
+            yield "/a/points", CLOUD, 1 + i, m.cloud(1 + i, records(rng, 20), "base")
+            yield "/front/points", CLOUD, 1 + i, m.cloud(1 + i, records(rng, 80), "/front")
+            yield "/a/imu", IMU, 1 + i, m.imu(1 + i, (0, 0, 0), (0, 0, 9.8), "imu")
+            yield "/front/imu", IMU, 1 + i, m.imu(1 + i, (0, 0, 0), (0, 0, 9.8), "front_imu")
+
+    with Recording(write(tmp_path / "many", "mcap", make)) as recording:
+        choice = choose(recording)
+        assert (choice.lidar.name, choice.imu.name) == ("/front/points", "/front/imu")
+        assert "/depth/points" in choice.reasons[0] and "/a/imu" in choice.reasons[1]
+        wanted = choose(recording, lidar="/a/points", imu="/a/imu")
+        assert (wanted.lidar.name, wanted.imu.name) == ("/a/points", "/a/imu")
+        with pytest.raises(BagError, match="'/b'.*there are: /a/points, /depth/points"):
+            choose(recording, lidar="/b")
+        with pytest.raises(BagError, match="imu topic '/b'"):
+            choose(recording, imu="/b")
+
+
+def test_unlinked_frames_and_no_imu_are_said(rng, tmp_path):
+    def make(m):
+        yield "/points", CLOUD, 1.0, m.cloud(1.0, records(rng))
+        yield "/imu", IMU, 1.0, m.imu(1.0, (0, 0, 0), (0, 0, 9.8))
+
+    with Recording(write(tmp_path / "bare", "bag", make)) as recording:
+        choice = choose(recording)
+    assert choice.T_imu_lidar is None and "identity is assumed" in choice.reasons[2]
+
+    def make_alone(m):
+        yield "/points", CLOUD, 1.0, m.cloud(1.0, records(rng))
+
+    with Recording(write(tmp_path / "alone", "bag", make_alone)) as recording:
+        choice = choose(recording)
+    assert choice.imu is None and choice.reasons[-1] == "IMU: none in the recording"
+
+
+@pytest.mark.parametrize("form", FORMATS)
+def test_livox_messages_are_those_of_ros1(rng, tmp_path, form):
+    points = livox_records(rng)
+
+    def make(m):
+        for i in range(3):
+            yield "/livox/lidar", LIVOX, 5.0 + i, m.livox(5.0 + i, points[: 50 - i])
+
+    with Recording(write(tmp_path / "livox", form, make)) as recording:
+        assert choose(recording).lidar.time_field == "offset_time"
+        messages = list(recording.messages(["/livox/lidar"]))
+    store = typestore(ros1=True)
+    for i, message in enumerate(messages):
+        assert message.type == "livox_ros_driver2/CustomMsg"
+        read = store.deserialize_ros1(message.data, LIVOX)
+        assert read.header.frame_id == "livox" and read.timebase == (5 + i) * 10**9
+        assert len(read.points) == read.point_num == 50 - i
+        assert [p.x for p in read.points] == points["x"][: 50 - i].tolist()
+        assert [p.line for p in read.points] == points["line"][: 50 - i].tolist()
+
+
+@pytest.mark.parametrize("frame", ["", "a", "livox", "a frame of any length"])
+def test_livox_is_translated_as_rosbags_does(rng, frame):
+    from recordings import Messages
+
+    store = typestore(ros1=False)
+    for count in (0, 1, 7):
+        message = Messages(store).livox(3.25, livox_records(rng, count), frame)
+        raw = store.serialize_cdr(message, LIVOX)
+        assert livox_cdr_to_ros1(raw) == bytes(store.cdr_to_ros1(raw, LIVOX))
+        big = store.serialize_cdr(message, LIVOX, little_endian=False)
+        assert livox_cdr_to_ros1(big) == livox_cdr_to_ros1(raw)
+    for size in (3, 10, 40, len(raw) - 5):
+        with pytest.raises((ValueError, IndexError)):
+            livox_cdr_to_ros1(bytes(raw)[:size])
+
+
+def test_rotations_and_quaternions_agree(rng):
+    for q in [*rng.normal(size=(50, 4)), [1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]:
+        q = np.asarray(q) / np.linalg.norm(q)
+        R = rotation(*q)
+        assert np.allclose(R @ R.T, np.eye(3)) and np.isclose(np.linalg.det(R), 1)
+        assert np.isclose(abs(quaternion(R) @ q), 1) and quaternion(R)[3] >= 0
+
+
+def test_what_is_no_bag_is_said_in_one_line(tmp_path):
+    for name in ("empty.bag", "junk.mcap", "junk.db3"):
+        path = tmp_path / name
+        path.write_bytes(b"" if name == "empty.bag" else struct.pack("<100I", *range(100)))
+        with pytest.raises(BagError, match=name) as caught:
+            Recording(path)
+        assert "\n" not in str(caught.value)
+    with pytest.raises(BagError, match="missing.bag"):
+        Recording(tmp_path / "missing.bag")
+    assert not is_bag(tmp_path)
+
+
+def test_info_tells_what_is_there_and_what_would_be_read(rng, tmp_path, capsys):
+    from nvm.cli import main
+
+    path = write(tmp_path / "walk", "mcap", walk(rng))
+    assert main(["info", str(path)]) == 0
+    out = capsys.readouterr().out
+    assert f"{path}: ROS 2 bag, 0.5 s from 100.000 s" in out
+    assert "/points: 50 points, x:f4 y:f4 z:f4 intensity:f4 t:u4; times in t from 0 to 99000000: ns" in out
+    assert "/imu: accelerations of 9.80: m/s^2" in out
+    assert "/tf_static: base, imu, lidar" in out
+    assert "lidar: /points, the only one with clouds" in out
+    assert "'imu' and 'lidar' are 1.000 0.000 0.300 m apart" in out
+    assert main(["info", str(tmp_path / "missing.bag")]) == 1
+    assert capsys.readouterr().err.startswith("nvm: ")
+
+
+def test_a_recording_without_clouds_says_what_it_holds(rng, tmp_path, capsys):
+    from nvm.cli import main
+
+    def make(m):
+        yield "/imu", IMU, 1.0, m.imu(1.0, (0, 0, 0), (0, 0, 0.99))
+
+    assert main(["info", str(write(tmp_path / "imu", "db3", make))]) == 0
+    out = capsys.readouterr().out
+    assert "accelerations of 0.99: g" in out
+    assert "has no clouds" in out and "it holds: sensor_msgs/msg/Imu" in out
