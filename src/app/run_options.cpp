@@ -10,7 +10,6 @@
 #include <stdexcept>
 
 #include "config/schema.hpp"
-#include "io/scan_converter.hpp"
 
 namespace nvm::app {
 
@@ -34,13 +33,27 @@ void bind_input(config::Schema& schema, RunOptions& options) {
        {"s", io::TimeUnit::kSecond},
        {"ms", io::TimeUnit::kMillisecond},
        {"us", io::TimeUnit::kMicrosecond},
-       {"ns", io::TimeUnit::kNanosecond}},
-      "Of the points' time field");
+       {"ns", io::TimeUnit::kNanosecond},
+       {"sweep", io::TimeUnit::kSweep}},
+      "Of the points' time field; sweep: 0 to 1 from begin to end");
   schema.add(
-      "max_imu_gap",
-      input.max_imu_gap,
-      {0.001, 1e9},
-      "A longer silence of the IMU is an error [s]");
+      "point_time_field",
+      input.point_time_field,
+      "Its name; azimuth: raw scans of a spinning sensor; none: no times; empty: automatic");
+  schema.add_choice<io::StampMeaning>(
+      "stamp",
+      input.stamp,
+      {{"auto", io::StampMeaning::kAutomatic},
+       {"begin", io::StampMeaning::kBegin},
+       {"end", io::StampMeaning::kEnd}},
+      "What a scan's stamp dates: the begin or the end of its sweep");
+  schema.add_choice<io::ClockChoice>(
+      "clock",
+      input.clock,
+      {{"auto", io::ClockChoice::kAutomatic},
+       {"header", io::ClockChoice::kHeader},
+       {"record", io::ClockChoice::kRecord}},
+      "Of a bag's messages: the times in their headers or those of recording");
   schema.add("scan_rate", input.scan_rate, {0.01, 1000.0}, "Of files without any time [Hz]");
   schema.add(
       "T_imu_lidar", options.T_imu_lidar, "x y z [m] qx qy qz qw; empty: as the sequence tells");

@@ -2,25 +2,20 @@
 // Copyright (c) 2026 The nvm authors
 #include "io/imu_file.hpp"
 
+#include <algorithm>
 #include <array>
-#include <limits>
 #include <stdexcept>
 
 namespace nvm::io {
 
-ImuFile::ImuFile(const std::string& path, double max_gap)
-    : rows_(path, {"t", "gx", "gy", "gz", "ax", "ay", "az"}), gaps_(max_gap) {
+ImuFile::ImuFile(const std::string& path) : rows_(path, {"t", "gx", "gy", "gz", "ax", "ay", "az"}) {
   advance();
 }
 
 std::vector<lio::ImuSample> ImuFile::until(double time) {
   std::vector<lio::ImuSample> samples;
   while (next_ && next_->time <= time) {
-    try {
-      gaps_.add(next_->time);
-    } catch (const std::runtime_error& gap) {
-      rows_.line().fail(gap.what());
-    }
+    gaps_.add(next_->time);
     samples.push_back(*next_);
     advance();
   }
@@ -28,20 +23,46 @@ std::vector<lio::ImuSample> ImuFile::until(double time) {
 }
 
 void ImuFile::advance() {
-  const double previous = next_ ? next_->time : -std::numeric_limits<double>::infinity();
-  next_.reset();
+  while (true) {
+    try {
+      next_ = read_row();
+      return;
+    } catch (const std::runtime_error& error) {
+      bad_rows_.add(error.what());
+    }
+  }
+}
+
+std::optional<lio::ImuSample> ImuFile::read_row() {
   const auto cells = rows_.next();
   if (!cells) {
-    return;
+    return std::nullopt;
   }
   std::array<double, 7> values{};
   for (std::size_t i = 0; i < values.size(); ++i) {
     values[i] = rows_.line().number((*cells)[i]);
   }
-  if (values[0] <= previous) {
+  const lio::ImuSample sample = {
+      values[0], {values[1], values[2], values[3]}, {values[4], values[5], values[6]}};
+  if (const auto problem = problem_of(sample)) {
+    rows_.line().fail(*problem);
+  }
+  if (sample.time <= previous_) {
     rows_.line().fail("the time is not above that of the sample before");
   }
-  next_ = {values[0], {values[1], values[2], values[3]}, {values[4], values[5], values[6]}};
+  previous_ = sample.time;
+  return sample;
+}
+
+std::optional<std::string> problem_of(const lio::ImuSample& sample) {
+  constexpr double kAbsurd = 1e5;  // beyond any sensor in deg/s, and in milli-g
+  const double largest =
+      std::max(sample.gyro.cwiseAbs().maxCoeff(), sample.accel.cwiseAbs().maxCoeff());
+  if (!sample.gyro.allFinite() || !sample.accel.allFinite()) {
+    return "a reading is not finite";
+  }
+  return largest > kAbsurd ? std::optional<std::string>("a reading is absurd, above 1e5")
+                           : std::nullopt;
 }
 
 }  // namespace nvm::io

@@ -2,22 +2,24 @@
 // Copyright (c) 2026 The nvm authors
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "io/csv_reader.hpp"
 #include "io/imu_gap_monitor.hpp"
+#include "io/left_out.hpp"
 #include "lio/sensor_data.hpp"
 
 namespace nvm::io {
 
-/// The samples of an imu.csv (t,gx,gy,gz,ax,ay,az in s, rad/s, m/s^2) in order of time. Throws
-/// std::runtime_error, naming file and line, for numbers that are not finite, times that repeat or
-/// go back, and gaps above `max_gap` [s].
+/// The samples of an imu.csv (t,gx,gy,gz,ax,ay,az in s, rad/s, m/s^2) in order of time. Rows that
+/// are no sample (not seven finite numbers, absurd ones, a time that repeats or goes back) are left
+/// out. Throws std::runtime_error, naming the file, when it lacks a column.
 class ImuFile {
  public:
-  ImuFile(const std::string& path, double max_gap);
+  explicit ImuFile(const std::string& path);
 
   /// The samples not yet handed out with time <= `time`.
   std::vector<lio::ImuSample> until(double time);
@@ -25,12 +27,21 @@ class ImuFile {
   /// The gaps among the samples handed out.
   const ImuGapMonitor& gaps() const { return gaps_; }
 
+  /// The rows that were left out so far.
+  const LeftOut& bad_rows() const { return bad_rows_; }
+
  private:
   void advance();
+  std::optional<lio::ImuSample> read_row();
 
   CsvReader rows_;
   std::optional<lio::ImuSample> next_;
   ImuGapMonitor gaps_;
+  LeftOut bad_rows_{"rows of imu.csv are"};
+  double previous_ = -std::numeric_limits<double>::infinity();
 };
+
+/// Nothing when the readings are such as an IMU may give, in any unit in use; else what is wrong.
+std::optional<std::string> problem_of(const lio::ImuSample& sample);
 
 }  // namespace nvm::io

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <stdexcept>
 
 namespace nvm::io {
 
@@ -19,13 +18,6 @@ void ImuGapMonitor::add(double time) {
     return;
   }
   const Interval interval{previous, time - previous};
-  if (interval.length > max_gap_) {
-    throw std::runtime_error(fmt::format(
-        "the IMU is silent for {:.3f} s after t = {:.3f} s, longer than input.max_imu_gap = {} s",
-        interval.length,
-        interval.begin,
-        max_gap_));
-  }
   if (limit_ > 0.0) {
     judge(interval);
     return;

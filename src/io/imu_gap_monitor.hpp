@@ -13,11 +13,7 @@ namespace nvm::io {
 /// hundred.
 class ImuGapMonitor {
  public:
-  /// A gap above `max_gap` [s] cannot be borne.
-  explicit ImuGapMonitor(double max_gap) : max_gap_(max_gap) {}
-
-  /// `time` [s] is above that of the call before. Throws std::runtime_error after a gap that cannot
-  /// be borne.
+  /// `time` [s] is above that of the call before.
   void add(double time);
 
   /// The gaps so far in one sentence; nothing without one.
@@ -31,7 +27,6 @@ class ImuGapMonitor {
 
   void judge(const Interval& interval);
 
-  double max_gap_;
   std::optional<double> previous_;
   std::vector<Interval> first_;  ///< until the limit is known
   double limit_ = 0.0;           ///< [s]

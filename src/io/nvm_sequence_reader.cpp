@@ -47,6 +47,10 @@ std::vector<ScanEntry> read_scan_list(const std::string& folder) {
     if (t_end < t_begin) {
       rows.line().fail("t_end is below t_begin");
     }
+    const fs::path file = fs::path((*cells)[3]).lexically_normal();
+    if (file.is_absolute() || *file.begin() == "..") {
+      rows.line().fail("the file " + quote((*cells)[3]) + " is outside of the folder");
+    }
     previous = t_begin;
     scans.push_back({(fs::path(folder) / (*cells)[3]).string(), t_begin, t_end});
   }
@@ -112,8 +116,7 @@ void check_points(const ScanEntry& entry, const lio::Scan& scan) {
 
 class NvmSequence : public SequenceReader {
  public:
-  NvmSequence(const std::string& folder, const SequenceOptions& options)
-      : scans_(read_scan_list(folder)) {
+  explicit NvmSequence(const std::string& folder) : scans_(read_scan_list(folder)) {
     info_.format = "nvm sequence";
     info_.scan_count = scans_.size();
     info_.has_point_times = true;
@@ -121,7 +124,7 @@ class NvmSequence : public SequenceReader {
     apply(read_nvm_sequence_meta(meta), meta);
     info_.has_imu = fs::exists(folder + "/imu.csv");
     if (info_.has_imu) {
-      imu_.emplace(folder + "/imu.csv", options.max_imu_gap);
+      imu_.emplace(folder + "/imu.csv");
     } else {
       info_.notes.emplace_back("there is no imu.csv: the sequence is read without IMU");
     }
@@ -145,9 +148,12 @@ class NvmSequence : public SequenceReader {
       return {};
     }
     auto samples = imu_->until(time);
-    if (const auto gaps = imu_->gaps().summary()) {
-      info_.notes.resize(fixed_notes_);
-      info_.notes.push_back(*gaps);
+    info_.notes.resize(fixed_notes_);
+    info_.skipped_imu_samples = imu_->bad_rows().count();
+    for (const auto& note : {imu_->bad_rows().note(), imu_->gaps().summary()}) {
+      if (note) {
+        info_.notes.push_back(*note);
+      }
     }
     return samples;
   }
@@ -185,9 +191,8 @@ class NvmSequence : public SequenceReader {
 
 bool is_nvm_sequence(const std::string& folder) { return fs::exists(folder + "/scans.csv"); }
 
-std::unique_ptr<SequenceReader> open_nvm_sequence(
-    const std::string& folder, const SequenceOptions& options) {
-  return std::make_unique<NvmSequence>(folder, options);
+std::unique_ptr<SequenceReader> open_nvm_sequence(const std::string& folder) {
+  return std::make_unique<NvmSequence>(folder);
 }
 
 }  // namespace nvm::io

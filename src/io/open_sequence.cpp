@@ -38,8 +38,7 @@ std::unique_ptr<SequenceReader> open_sequence(
     fail(path, "is a ROS 2 bag: convert it first with 'scripts/convert_bag.py BAG FOLDER'");
   }
   if (std::filesystem::is_directory(path)) {
-    return is_nvm_sequence(path) ? open_nvm_sequence(path, options)
-                                 : open_scan_folder(path, options);
+    return is_nvm_sequence(path) ? open_nvm_sequence(path) : open_scan_folder(path, options);
   }
   if (extension_of(path) == ".bag") {
     return open_ros_bag(path, options);

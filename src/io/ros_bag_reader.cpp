@@ -14,9 +14,12 @@
 #include <utility>
 
 #include "io/file.hpp"
+#include "io/imu_file.hpp"
 #include "io/imu_gap_monitor.hpp"
+#include "io/left_out.hpp"
 #include "io/ros_bag_check.hpp"
 #include "io/ros_messages.hpp"
+#include "io/scan_converter.hpp"
 
 namespace nvm::io {
 namespace {
@@ -62,14 +65,9 @@ std::vector<std::string> topics_of(const rosbag::Bag& bag, bool (*accepts)(const
   return topics;
 }
 
-/// The factor that makes m/s^2 of the accelerations of the view.
-double accel_scale(rosbag::View& view, AccelUnit unit) {
-  constexpr std::size_t kSampleCount = 100;
+/// The factor that makes m/s^2 of accelerations of such lengths.
+double accel_scale(std::vector<double> norms, AccelUnit unit) {
   constexpr double kLimit = 3.0;  // between 1 g and 9.8 m/s^2 on a logarithmic scale
-  std::vector<double> norms;
-  for (auto it = view.begin(); it != view.end() && norms.size() < kSampleCount; ++it) {
-    norms.push_back(read_imu(bytes_of(*it)).accel.norm());
-  }
   if (unit == AccelUnit::kAutomatic && !norms.empty()) {
     std::sort(norms.begin(), norms.end());
     unit = norms[norms.size() / 2] < kLimit ? AccelUnit::kStandardGravity
@@ -78,12 +76,18 @@ double accel_scale(rosbag::View& view, AccelUnit unit) {
   return unit == AccelUnit::kStandardGravity ? kStandardGravity : 1.0;
 }
 
+PointTimeOptions point_time_options(const SequenceOptions& options) {
+  PointTimeOptions times;
+  times.field = options.point_time_field;
+  times.unit = options.point_time_unit;
+  times.stamp = options.stamp;
+  times.is_raw = true;
+  return times;
+}
+
 class RosBag : public SequenceReader {
  public:
-  RosBag(std::string path, const SequenceOptions& options)
-      : path_(std::move(path)),
-        cloud_converter_(options.point_time_unit),
-        gaps_(options.max_imu_gap) {
+  RosBag(std::string path, const SequenceOptions& options) : path_(std::move(path)) {
     check_ros_bag(path_);
     try {
       bag_.open(path_, rosbag::bagmode::Read);
@@ -93,7 +97,24 @@ class RosBag : public SequenceReader {
     }
   }
 
-  const SequenceInfo& info() const override { return info_; }
+  const SequenceInfo& info() const override {
+    info_.skipped_scans = bad_clouds_.count();
+    info_.skipped_imu_samples = bad_imu_.count();
+    info_.notes.resize(fixed_notes_);
+    const auto notes = converter_.notes();
+    info_.notes.insert(info_.notes.end(), notes.begin(), notes.end());
+    for (const auto& note :
+         {bad_clouds_.note(),
+          bad_imu_.note(),
+          clocks_.cloud.jump_note("clouds"),
+          clocks_.imu.jump_note("IMU messages"),
+          gaps_.summary()}) {
+      if (note) {
+        info_.notes.push_back(*note);
+      }
+    }
+    return info_;
+  }
 
   std::optional<lio::Scan> next_scan() override {
     while (scans_.empty() && advance()) {
@@ -128,15 +149,14 @@ class RosBag : public SequenceReader {
     info_.format = "ROS 1 bag";
     info_.scan_count = rosbag::View(bag_, rosbag::TopicQuery(lidar)).size();
     info_.has_imu = !imu.empty();
-    info_.notes.emplace_back("a bag does not tell T_imu_lidar: the identity is assumed");
-    if (info_.has_imu) {
-      rosbag::View samples(bag_, rosbag::TopicQuery(imu));
-      accel_scale_ = accel_scale(samples, options.accel_unit);
+    std::vector<CloudMessage> clouds = first_clouds(lidar);
+    std::vector<MessageTime> cloud_times;
+    for (const CloudMessage& cloud : clouds) {
+      cloud_times.push_back({cloud.stamp, cloud.record_time});
     }
-    if (accel_scale_ != 1.0) {
-      info_.notes.emplace_back("the IMU measures in g: accelerations are multiplied by 9.80665");
-    }
-    inspect_first_cloud(lidar);
+    clocks_ = choose_clocks(cloud_times, inspect_imu(imu, options.accel_unit), options.clock);
+    info_.notes.insert(info_.notes.end(), clocks_.notes.begin(), clocks_.notes.end());
+    learn(std::move(clouds), options);
     view_.addQuery(bag_, rosbag::TopicQuery(std::vector<std::string>{lidar, imu}));
     next_ = view_.begin();
     fixed_notes_ = info_.notes.size();
@@ -157,11 +177,52 @@ class RosBag : public SequenceReader {
     return !wanted.empty() || topics.empty() ? wanted : topics.front();
   }
 
-  void inspect_first_cloud(const std::string& topic) {
-    rosbag::View clouds(bag_, rosbag::TopicQuery(topic));
-    if (clouds.size() > 0) {
-      info_.has_point_times = find_time_field(read_cloud(*clouds.begin()).records) != nullptr;
+  std::vector<MessageTime> inspect_imu(const std::string& topic, AccelUnit unit) {
+    constexpr std::size_t kCount = 100;
+    std::vector<double> norms;
+    std::vector<MessageTime> times;
+    rosbag::View view(bag_, rosbag::TopicQuery(topic));
+    for (auto it = view.begin(); it != view.end() && times.size() < kCount; ++it) {
+      const lio::ImuSample sample = read_imu(bytes_of(*it));
+      norms.push_back(sample.accel.norm());
+      times.push_back({sample.time, it->getTime().toSec()});
     }
+    accel_scale_ = accel_scale(std::move(norms), unit);
+    if (accel_scale_ != 1.0) {
+      info_.notes.emplace_back("the IMU measures in g: accelerations are multiplied by 9.80665");
+    }
+    return times;
+  }
+
+  /// The first clouds, over which it is judged how they are dated, as any one may be bad.
+  std::vector<CloudMessage> first_clouds(const std::string& topic) {
+    constexpr std::size_t kCount = 20;
+    std::vector<CloudMessage> clouds;
+    rosbag::View view(bag_, rosbag::TopicQuery(topic));
+    for (auto it = view.begin(); it != view.end() && clouds.size() < kCount; ++it) {
+      try {
+        clouds.push_back(read_cloud(*it));
+      } catch (const std::exception&) {
+        continue;  // advance() counts it
+      }
+      clouds.back().records.source = topic;
+      clouds.back().record_time = it->getTime().toSec();
+    }
+    return clouds;
+  }
+
+  void learn(std::vector<CloudMessage> clouds, const SequenceOptions& options) {
+    PointTimeOptions times = point_time_options(options);
+    if (clocks_.cloud.uses_record() && times.stamp == StampMeaning::kAutomatic) {
+      times.stamp = StampMeaning::kEnd;  // a message is recorded when it is complete
+    }
+    for (CloudMessage& cloud : clouds) {
+      cloud.stamp = clocks_.cloud.uses_record() ? cloud.record_time : cloud.stamp;
+      cloud.record_time -= std::min(clocks_.imu.uses_record() ? 0.0 : clocks_.imu.offset(), 0.0);
+    }
+    converter_ = ScanConverter(times);
+    converter_.learn(clouds);
+    info_.has_point_times = converter_.has_point_times();
   }
 
   static CloudMessage read_cloud(const rosbag::MessageInstance& message) {
@@ -169,74 +230,67 @@ class RosBag : public SequenceReader {
     return is_livox(message.getDataType()) ? read_livox_custom(bytes) : read_point_cloud2(bytes);
   }
 
-  /// Reads one message; false at the end.
+  /// Reads one message; false at the end. A bad one is counted and left out.
   bool advance() {
     if (next_ == view_.end()) {
       return false;
     }
+    const rosbag::MessageInstance message = *next_;
+    const bool is_imu_message = is_imu(message.getDataType());
     try {
-      const rosbag::MessageInstance message = *next_;
-      if (is_imu(message.getDataType())) {
-        take_imu(read_imu(bytes_of(message)));
-      } else {
-        take_cloud(message);
-      }
-      ++next_;
+      is_imu_message ? take_imu(message) : take_cloud(message);
     } catch (const std::exception& error) {
-      fail(path_, error.what());
+      (is_imu_message ? bad_imu_ : bad_clouds_)
+          .add(fmt::format(
+              "{} at {:.6f} s {}", message.getTopic(), message.getTime().toSec(), error.what()));
     }
+    ++next_;
     return true;
   }
 
   void take_cloud(const rosbag::MessageInstance& message) {
-    ScanConverter& converter =
-        is_livox(message.getDataType()) ? livox_converter_ : cloud_converter_;
     const CloudMessage cloud = read_cloud(message);
-    lio::Scan scan = converter.convert(cloud.records, cloud.stamp);
-    if (scan.t_begin <= previous_scan_) {
-      throw std::runtime_error(fmt::format(
-          "topic {}: the scan at {:.6f} s is not after the one before",
-          message.getTopic(),
-          scan.t_begin));
+    const auto stamp = clocks_.cloud.date({cloud.stamp, message.getTime().toSec()});
+    lio::Scan scan = converter_.convert(cloud.records, stamp.value_or(cloud.stamp));
+    if (!stamp || scan.t_begin <= previous_scan_) {
+      throw std::runtime_error(
+          fmt::format("(stamp {:.6f} s) repeats, is late or jumps in time", cloud.stamp));
     }
     previous_scan_ = scan.t_begin;
     scans_.push_back(std::move(scan));
   }
 
-  void take_imu(lio::ImuSample sample) {
+  void take_imu(const rosbag::MessageInstance& message) {
+    lio::ImuSample sample = read_imu(bytes_of(message));
     sample.accel *= accel_scale_;
-    if (sample.time > previous_imu_ && sample.gyro.allFinite() && sample.accel.allFinite()) {
-      previous_imu_ = sample.time;
-      gaps_.add(sample.time);
-      imu_.push_back(sample);
-    } else {
-      ++bad_imu_count_;
+    if (const auto problem = problem_of(sample)) {
+      throw std::runtime_error(*problem);
     }
-    info_.notes.resize(fixed_notes_);
-    if (bad_imu_count_ > 0) {
-      info_.notes.push_back(fmt::format(
-          "{} IMU messages that repeat or go back in time, or are not finite, are left out",
-          bad_imu_count_));
+    const auto time = clocks_.imu.date({sample.time, message.getTime().toSec()});
+    if (!time || *time <= previous_imu_) {
+      throw std::runtime_error(
+          fmt::format("(stamp {:.6f} s) repeats, is late or jumps in time", sample.time));
     }
-    if (const auto gaps = gaps_.summary()) {
-      info_.notes.push_back(*gaps);
-    }
+    sample.time = previous_imu_ = *time;
+    gaps_.add(sample.time);
+    imu_.push_back(sample);
   }
 
   std::string path_;
   rosbag::Bag bag_;
   rosbag::View view_;
   rosbag::View::iterator next_;
-  SequenceInfo info_;
+  mutable SequenceInfo info_;
   std::size_t fixed_notes_ = 0;  ///< the notes before those that change while reading
-  ScanConverter cloud_converter_;
-  ScanConverter livox_converter_{TimeUnit::kNanosecond};
+  ScanConverter converter_;
+  Clocks clocks_;
+  LeftOut bad_clouds_{"clouds are"};
+  LeftOut bad_imu_{"IMU messages are"};
   double accel_scale_ = 1.0;
   std::deque<lio::Scan> scans_;     ///< read, not handed out
   std::deque<lio::ImuSample> imu_;  ///< read, not handed out
   double previous_scan_ = -std::numeric_limits<double>::infinity();
   double previous_imu_ = -std::numeric_limits<double>::infinity();
-  std::size_t bad_imu_count_ = 0;
   ImuGapMonitor gaps_;
 };
 

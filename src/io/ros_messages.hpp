@@ -5,15 +5,10 @@
 #include <string_view>
 
 #include "io/point_records.hpp"
+#include "io/scan_converter.hpp"
 #include "lio/sensor_data.hpp"
 
 namespace nvm::io {
-
-/// A cloud message and the time in its header.
-struct CloudMessage {
-  double stamp = 0.0;  ///< [s]
-  PointRecords records;
-};
 
 // Readers of messages as ROS 1 serialises them. They throw std::runtime_error when the message is
 // truncated or contradicts itself, and allocate no more than a fixed multiple of its size.

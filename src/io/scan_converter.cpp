@@ -5,53 +5,25 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <string>
+#include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "io/file.hpp"
+#include "io/sweep_azimuth.hpp"
 
 namespace nvm::io {
 namespace {
 
-double seconds_per_tick(TimeUnit unit) {
-  switch (unit) {
-    case TimeUnit::kMillisecond:
-      return 1e-3;
-    case TimeUnit::kMicrosecond:
-      return 1e-6;
-    case TimeUnit::kNanosecond:
-      return 1e-9;
-    case TimeUnit::kSecond:
-    case TimeUnit::kAutomatic:
-      break;
-  }
-  return 1.0;
-}
+/// [s] from the stamp to the points of a scan in the same clock, at most.
+constexpr double kNear = 10.0;
 
-/// The unit in which `duration`, which is positive, is nearest to 0.1 s on a logarithmic scale.
-TimeUnit likely_unit(double duration, bool is_whole) {
-  const auto distance = [duration](TimeUnit unit) {
-    return std::abs(std::log10(duration * seconds_per_tick(unit) / 0.1));
-  };
-  TimeUnit best = is_whole ? TimeUnit::kMillisecond : TimeUnit::kSecond;
-  for (const TimeUnit unit :
-       {TimeUnit::kMillisecond, TimeUnit::kMicrosecond, TimeUnit::kNanosecond}) {
-    best = distance(unit) < distance(best) ? unit : best;
-  }
-  return best;
-}
-
-/// The time of a scan's first point, whose time field says `first` [s].
-double begin_time(double first, double stamp) {
-  constexpr double kNear = 10.0;
-  constexpr double kEpochTime = 1e8;
-  if (std::abs(first - stamp) < std::min(std::abs(first), kNear) || first > kEpochTime) {
-    return first;
-  }
-  return std::abs(first) <= kNear ? stamp + first : stamp;
-}
+/// Ticks that sample a cloud's times.
+constexpr std::size_t kSampleSize = 500;
 
 template <class Member>
 void read_member(const PointRecords& records, const Field* field, Member member, lio::Scan& scan) {
@@ -71,15 +43,17 @@ std::vector<double> read_column(const PointRecords& records, const Field& field)
   return values;
 }
 
-bool is_finite(const lio::TimedPoint& point) {
-  return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z);
+/// Sensors and drivers give a direction without return as NaN, or as zero.
+bool is_return(const lio::TimedPoint& point) {
+  return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z) &&
+         (point.x != 0.0F || point.y != 0.0F || point.z != 0.0F);
 }
 
-/// Drops the points without a finite position and tick; `ticks` is empty or as long as the points.
+/// Drops the points without a position or a finite tick; `ticks` is empty or as long as the points.
 void drop_no_returns(lio::Scan& scan, std::vector<double>& ticks) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
-    if (is_finite(scan.points[i]) && (ticks.empty() || std::isfinite(ticks[i]))) {
+    if (is_return(scan.points[i]) && (ticks.empty() || std::isfinite(ticks[i]))) {
       scan.points[kept] = scan.points[i];
       if (!ticks.empty()) {
         ticks[kept] = ticks[i];
@@ -91,16 +65,18 @@ void drop_no_returns(lio::Scan& scan, std::vector<double>& ticks) {
   ticks.resize(std::min(kept, ticks.size()));
 }
 
-}  // namespace
-
-const Field* find_time_field(const PointRecords& records) {
-  return records.find({"time", "t", "timestamp", "offset_time", "time_stamp"});
+/// How the ticks of `field` are stored.
+TickType tick_type(const Field& field) {
+  TickType type;
+  type.is_whole = is_integer(field.type);
+  if (field.type == ScalarType::kUint16 || field.type == ScalarType::kUint32) {
+    type.modulus = std::exp2(8.0 * static_cast<double>(size_of(field.type)));
+  }
+  type.resolution = field.type == ScalarType::kFloat32 ? std::exp2(-23.0) : 0.0;
+  return type;
 }
 
-lio::Scan ScanConverter::convert(const PointRecords& records, double stamp) {
-  lio::Scan scan;
-  scan.t_begin = stamp;
-  scan.t_end = stamp;
+void read_points_of(const PointRecords& records, lio::Scan& scan) {
   scan.points.resize(records.size);
   const std::array<std::pair<const char*, float lio::TimedPoint::*>, 3> coordinates = {
       {{"x", &lio::TimedPoint::x}, {"y", &lio::TimedPoint::y}, {"z", &lio::TimedPoint::z}}};
@@ -114,33 +90,236 @@ lio::Scan ScanConverter::convert(const PointRecords& records, double stamp) {
   read_member(
       records, records.find({"intensity", "reflectivity"}), &lio::TimedPoint::intensity, scan);
   read_member(records, records.find({"ring", "line", "channel"}), &lio::TimedPoint::ring, scan);
+}
 
-  const Field* time = find_time_field(records);
+void sort_by_time(std::vector<lio::TimedPoint>& points) {
+  const auto is_earlier = [](const lio::TimedPoint& a, const lio::TimedPoint& b) {
+    return a.dt < b.dt;
+  };
+  if (!std::is_sorted(points.begin(), points.end(), is_earlier)) {
+    std::stable_sort(points.begin(), points.end(), is_earlier);
+  }
+}
+
+}  // namespace
+
+const Field* find_time_field(const PointRecords& records) {
+  return records.find({"time",       "t",           "timestamp",     "offset_time",
+                       "time_stamp", "time_offset", "timeoffset",    "timestamps",
+                       "ts",         "stamp",       "point_time",    "pointtime",
+                       "rel_time",   "dt",          "relative_time", "delta_time",
+                       "time_us",    "time_ns",     "t_offset",      "gps_time",
+                       "GpsTime",    "Time",        "Timestamp",     "TimeStamp",
+                       "time_sec",   "toffset",     "offset",        "timestamp_offset"});
+}
+
+const Field* ScanConverter::time_field(const PointRecords& records) const {
+  if (options_.field.empty()) {
+    return find_time_field(records);
+  }
+  if (options_.field == "none" || options_.field == "azimuth") {
+    return nullptr;
+  }
+  const Field* field = records.find({options_.field});
+  if (field == nullptr) {
+    std::string names;
+    for (const Field& other : records.fields) {
+      names += (names.empty() ? "" : ", ") + other.name;
+    }
+    fail(
+        records.source, "has no field '" + options_.field + "' for the times; there are: " + names);
+  }
+  return field;
+}
+
+SweepSample ScanConverter::sample_of(const CloudMessage& cloud) const {
+  SweepSample sample{cloud.stamp, cloud.record_time, {}};
+  const Field* field = time_field(cloud.records);
+  if (field == nullptr) {
+    return sample;
+  }
+  lio::Scan scan;
+  read_points_of(cloud.records, scan);
+  std::vector<double> ticks = read_column(cloud.records, *field);
+  drop_no_returns(scan, ticks);
+  const std::size_t step = ticks.size() / kSampleSize + 1;
+  for (std::size_t i = 0; i < ticks.size(); i += step) {
+    sample.ticks.push_back(ticks[i]);
+  }
+  if (!ticks.empty()) {
+    sample.ticks.push_back(ticks.back());
+  }
+  std::sort(sample.ticks.begin(), sample.ticks.end());
+  return sample;
+}
+
+void ScanConverter::learn(const std::vector<CloudMessage>& clouds) {
+  has_learnt_ = true;
+  std::vector<SweepSample> samples;
+  TickType type;
+  for (const CloudMessage& cloud : clouds) {
+    samples.push_back(sample_of(cloud));
+    source_ = cloud.records.source;
+    if (const Field* field = time_field(cloud.records)) {
+      field_ = field->name;
+      type = tick_type(*field);
+    }
+  }
+  modulus_ = type.modulus;
+  times_ = learn_point_times(samples, type, options_);
+  if (times_.base != PointTimes::Base::kNone || clouds.empty()) {
+    return;
+  }
+  lio::Scan scan;
+  std::vector<double> no_ticks;
+  read_points_of(clouds.back().records, scan);
+  drop_no_returns(scan, no_ticks);
+  const bool is_wanted =
+      options_.field == "azimuth" || (options_.is_raw && options_.field != "none");
+  uses_azimuth_ = is_wanted && !sweep_fractions(scan.points).empty();
+}
+
+std::vector<std::string> ScanConverter::notes() const {
+  std::vector<std::string> notes;
+  const std::string prefix = source_ + ": ";
+  if (times_.base != PointTimes::Base::kNone) {
+    notes.push_back(prefix + "point times: field '" + field_ + "' " + times_.description);
+  } else if (has_learnt_) {
+    std::string note =
+        prefix + (times_.problem.empty() ? "there are no point times"
+                                         : "the point times '" + field_ + "' " + times_.problem);
+    note += uses_azimuth_ ? "; they are taken from the azimuth, as of a spinning sensor in sweeps "
+                            "of " +
+                                std::to_string(times_.period) + " s"
+                          : "; each scan counts as taken at one instant, which is wrong while the "
+                            "sensor moves: set input.point_time_field to the field with the times, "
+                            "or to azimuth for raw scans of a spinning sensor";
+    notes.push_back(note + (times_.is_stamp_at_end ? "; the stamp dates the sweep's end" : ""));
+  }
+  if (wrong_times_ > 0) {
+    notes.push_back(
+        prefix + std::to_string(wrong_times_) +
+        " points whose times do not fit into a sweep are left out");
+  }
+  if (untimed_scans_ > 0) {
+    notes.push_back(
+        prefix + std::to_string(untimed_scans_) +
+        " scans have times that do not fit into a sweep; they are replaced by the " +
+        (uses_azimuth_ || options_.is_raw ? "azimuth's, or" : "") + " begin of the sweep");
+  }
+  return notes;
+}
+
+lio::Scan ScanConverter::convert(const PointRecords& records, double stamp) {
+  if (!has_learnt_) {
+    learn({{stamp, records}});
+  }
+  lio::Scan scan;
+  read_points_of(records, scan);
+  const Field* time = times_.base == PointTimes::Base::kNone ? nullptr : time_field(records);
   std::vector<double> ticks = time ? read_column(records, *time) : std::vector<double>{};
   drop_no_returns(scan, ticks);
+  scan.t_begin = times_.sweep_begin(stamp);
+  scan.t_end = scan.t_begin;
   if (!ticks.empty()) {
-    set_times(ticks, is_integer(time->type), scan);
+    set_times(ticks, stamp, scan);
+  } else if (uses_azimuth_) {
+    untimed_scans_ += set_times_by_azimuth(stamp, scan) ? 0 : 1;
   }
   return scan;
 }
 
-void ScanConverter::set_times(const std::vector<double>& ticks, bool is_whole, lio::Scan& scan) {
-  const auto [min, max] = std::minmax_element(ticks.begin(), ticks.end());
-  if (unit_ == TimeUnit::kAutomatic && *max > *min) {
-    unit_ = likely_unit(*max - *min, is_whole);
+bool ScanConverter::is_plausible(double first, double last, double stamp) const {
+  const double seconds = times_.seconds_per_tick;
+  if ((last - first) * seconds > times_.max_duration) {
+    return false;
   }
-  const double seconds = seconds_per_tick(unit_);
+  switch (times_.base) {
+    case PointTimes::Base::kStamp:
+      return std::abs(first * seconds - times_.begin) <= times_.max_duration;
+    case PointTimes::Base::kAbsolute:
+      return options_.has_assumed_stamps || stamp == 0.0 ||
+             std::abs(first * seconds - stamp) <= kNear;
+    default:
+      return true;
+  }
+}
+
+void ScanConverter::set_times(std::vector<double>& ticks, double stamp, lio::Scan& scan) {
+  auto [min, max] = std::minmax_element(ticks.begin(), ticks.end());
+  double first = *min;
+  double last = *max;
+  if (!is_plausible(first, last, stamp)) {
+    mend_times(ticks, scan);
+    if (ticks.empty() || scan.points.empty()) {
+      untimed_scans_ += 1;
+      set_times_by_azimuth(stamp, scan);
+      return;
+    }
+    std::tie(min, max) = std::minmax_element(ticks.begin(), ticks.end());
+    first = *min;
+    last = *max;
+  }
+  const double seconds = times_.seconds_per_tick;
   for (std::size_t i = 0; i < ticks.size(); ++i) {
-    scan.points[i].dt = static_cast<float>((ticks[i] - *min) * seconds);
+    scan.points[i].dt = static_cast<float>((ticks[i] - first) * seconds);
   }
-  scan.t_begin = begin_time(*min * seconds, scan.t_begin);
-  scan.t_end = scan.t_begin + (*max - *min) * seconds;
-  const auto is_earlier = [](const lio::TimedPoint& a, const lio::TimedPoint& b) {
-    return a.dt < b.dt;
-  };
-  if (!std::is_sorted(scan.points.begin(), scan.points.end(), is_earlier)) {
-    std::stable_sort(scan.points.begin(), scan.points.end(), is_earlier);
+  if (times_.base == PointTimes::Base::kStamp) {
+    const bool is_near = std::abs(first * seconds - times_.begin) <= times_.max_duration;
+    scan.t_begin += is_near ? first * seconds : times_.begin;
+  } else if (times_.base == PointTimes::Base::kAbsolute && is_plausible(first, last, stamp)) {
+    scan.t_begin = first * seconds;
   }
+  scan.t_end = scan.t_begin + (last - first) * seconds;
+  sort_by_time(scan.points);
+}
+
+/// Mends counters that wrapped and leaves out the points whose ticks are outside of the densest
+/// part. No ticks are left when those are half of the points.
+void ScanConverter::mend_times(std::vector<double>& ticks, lio::Scan& scan) {
+  const auto is_upper = [&](double tick) { return tick > 0.5 * modulus_; };
+  const double seconds = times_.seconds_per_tick;
+  if (modulus_ > 0.0 && std::any_of(ticks.begin(), ticks.end(), is_upper)) {
+    for (double& tick : ticks) {
+      tick -= is_upper(tick) ? modulus_ : 0.0;
+    }
+  }
+  std::vector<double> sorted = ticks;
+  std::sort(sorted.begin(), sorted.end());
+  if ((sorted.back() - sorted.front()) * seconds <= times_.max_duration) {
+    return;
+  }
+  const TickWindow window = densest_window(sorted, times_.max_duration / seconds);
+  if (2 * window.count < ticks.size()) {
+    ticks.clear();
+    return;
+  }
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < ticks.size(); ++i) {
+    if (ticks[i] >= window.first && ticks[i] <= window.last) {
+      scan.points[kept] = scan.points[i];
+      ticks[kept++] = ticks[i];
+    }
+  }
+  wrong_times_ += ticks.size() - kept;
+  scan.points.resize(kept);
+  ticks.resize(kept);
+}
+
+bool ScanConverter::set_times_by_azimuth(double stamp, lio::Scan& scan) const {
+  const std::vector<float> fractions = sweep_fractions(scan.points);
+  scan.t_begin = times_.sweep_begin(stamp);
+  scan.t_end = scan.t_begin;
+  if (fractions.empty()) {
+    return scan.points.empty();
+  }
+  const auto period = static_cast<float>(times_.period);
+  for (std::size_t i = 0; i < fractions.size(); ++i) {
+    scan.points[i].dt = period * fractions[i];
+  }
+  sort_by_time(scan.points);
+  scan.t_end = scan.t_begin + static_cast<double>(scan.points.back().dt);
+  return true;
 }
 
 }  // namespace nvm::io

@@ -2,43 +2,70 @@
 // Copyright (c) 2026 The nvm authors
 #pragma once
 
+#include <cstddef>
+#include <string>
 #include <vector>
 
 #include "io/point_records.hpp"
+#include "io/point_times.hpp"
 #include "lio/sensor_data.hpp"
 
 namespace nvm::io {
 
-/// The unit of a point's time field.
-enum class TimeUnit { kAutomatic, kSecond, kMillisecond, kMicrosecond, kNanosecond };
+/// Points and when they say, or a message says, that they were measured.
+struct CloudMessage {
+  double stamp = 0.0;  ///< [s]
+  PointRecords records;
+  double record_time = std::numeric_limits<double>::quiet_NaN();  ///< [s]; NaN: unknown
+};
 
-/// The field with the points' times: time, t, timestamp, offset_time or time_stamp; nullptr
-/// without.
+/// The field with the points' times, by one of the names in use; nullptr without.
 const Field* find_time_field(const PointRecords& records);
 
-/// Turns point records into scans. Keeps what it learnt of the time unit for the scans to come.
+/// Turns point records into scans. Keeps what it learnt of their times for the scans to come.
 class ScanConverter {
  public:
-  explicit ScanConverter(TimeUnit unit = TimeUnit::kAutomatic) : unit_(unit) {}
+  explicit ScanConverter(PointTimeOptions options = {}) : options_(std::move(options)) {}
+
+  /// Learns how points and scans are dated (learn_point_times) from the first ones, in order, and
+  /// says so in notes(). Without this call, the first scan of convert() is all it learns from.
+  void learn(const std::vector<CloudMessage>& clouds);
 
   /// The scan of `records`, which the file or message dates `stamp` [s].
   ///
   /// Fields: x y z [m]; intensity (or reflectivity); a time field; ring (or line, channel). Points
-  /// with a coordinate or time that is not finite ("no return") are left out, and the others sorted
-  /// by time. kAutomatic takes the unit that makes the duration of the first scan nearest to 0.1 s
-  /// on a logarithmic scale (whole numbers are never seconds).
+  /// without a position ("no return": not finite, or all zero), or with a time that is not finite,
+  /// are left out, the others sorted by time. Times that do not fit into a sweep are mended where
+  /// the counter wrapped, else their points are left out; when that would be half of a scan,
+  /// its times are replaced by the azimuth's, or all are put to its begin. Both are counted.
   ///
-  /// The first point's time is absolute when it is within 10 s of the stamp and nearer to it than
-  /// to zero, or above 1e8 s (three years); else relative to the stamp when within 10 s of zero;
-  /// any other clock only tells the points' differences, and the first point gets the stamp.
-  ///
-  /// Throws std::runtime_error, naming the source, without x y z.
+  /// Throws std::runtime_error, naming the source, without x y z or with a time field that is
+  /// asked for and not there.
   lio::Scan convert(const PointRecords& records, double stamp);
 
- private:
-  void set_times(const std::vector<double>& ticks, bool is_whole, lio::Scan& scan);
+  const PointTimes& times() const { return times_; }
+  bool has_point_times() const { return times_.base != PointTimes::Base::kNone || uses_azimuth_; }
 
-  TimeUnit unit_;
+  /// What was inferred and what was left out, for the user; grows with the scans.
+  std::vector<std::string> notes() const;
+
+ private:
+  const Field* time_field(const PointRecords& records) const;
+  SweepSample sample_of(const CloudMessage& cloud) const;
+  void set_times(std::vector<double>& ticks, double stamp, lio::Scan& scan);
+  void mend_times(std::vector<double>& ticks, lio::Scan& scan);
+  bool set_times_by_azimuth(double stamp, lio::Scan& scan) const;
+  bool is_plausible(double first, double last, double stamp) const;
+
+  PointTimeOptions options_;
+  PointTimes times_;
+  double modulus_ = 0.0;  ///< of the time field
+  bool has_learnt_ = false;
+  bool uses_azimuth_ = false;
+  std::string field_;              ///< the time field
+  std::string source_;             ///< for notes
+  std::size_t wrong_times_ = 0;    ///< points left out for their times
+  std::size_t untimed_scans_ = 0;  ///< scans whose times were replaced
 };
 
 }  // namespace nvm::io

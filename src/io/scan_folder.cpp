@@ -13,8 +13,10 @@
 
 #include "config/value.hpp"
 #include "io/file.hpp"
+#include "io/left_out.hpp"
 #include "io/line_reader.hpp"
 #include "io/natural_order.hpp"
+#include "io/scan_converter.hpp"
 #include "io/trajectory_io.hpp"
 
 namespace nvm::io {
@@ -138,30 +140,49 @@ void set_times_by_line(std::vector<ScanFile>& scans, const std::string& path) {
   }
 }
 
+PointTimeOptions point_time_options(const SequenceOptions& options) {
+  PointTimeOptions times;
+  times.field = options.point_time_field;
+  times.unit = options.point_time_unit;
+  times.stamp = options.stamp;
+  times.has_assumed_stamps = true;
+  return times;
+}
+
 class ScanFolder : public SequenceReader {
  public:
   ScanFolder(const std::string& path, const SequenceOptions& options)
-      : scans_(find_scans(path)), converter_(options.point_time_unit) {
+      : path_(path), scans_(find_scans(path)), converter_(point_time_options(options)) {
     set_times(options.scan_rate);
-    const std::string first = scans_.front().path.string();
-    info_.format = "folder of " + extension_of(first) + " scans";
+    learn_times();
+    info_.format = "folder of " + extension_of(scans_.front().path.string()) + " scans";
     info_.scan_count = scans_.size();
-    info_.has_point_times = find_time_field(read_points(first)) != nullptr;
+    fixed_notes_ = info_.notes.size();
   }
 
-  const SequenceInfo& info() const override { return info_; }
+  const SequenceInfo& info() const override {
+    info_.skipped_scans = bad_scans_.count();
+    info_.notes.resize(fixed_notes_);
+    const auto notes = converter_.notes();
+    info_.notes.insert(info_.notes.end(), notes.begin(), notes.end());
+    if (const auto note = bad_scans_.note()) {
+      info_.notes.push_back(*note);
+    }
+    return info_;
+  }
 
   std::optional<lio::Scan> next_scan() override {
-    if (next_ == scans_.size()) {
-      return std::nullopt;
+    while (next_ < scans_.size()) {
+      try {
+        return read_scan(scans_[next_++]);
+      } catch (const std::runtime_error& error) {
+        bad_scans_.add(error.what());
+      }
     }
-    const ScanFile& file = scans_[next_++];
-    lio::Scan scan = converter_.convert(read_points(file.path.string()), file.time);
-    if (scan.t_begin <= previous_time_) {
-      fail(file.path.string(), "begins no later than the scan before it");
+    if (bad_scans_.count() == scans_.size()) {
+      fail(path_, "no scan can be read: " + *bad_scans_.note());
     }
-    previous_time_ = scan.t_begin;
-    return scan;
+    return std::nullopt;
   }
 
   std::vector<lio::ImuSample> imu_until(double) override { return {}; }
@@ -189,9 +210,37 @@ class ScanFolder : public SequenceReader {
     }
   }
 
+  lio::Scan read_scan(const ScanFile& file) {
+    lio::Scan scan = converter_.convert(read_points(file.path.string()), file.time);
+    if (scan.t_begin <= previous_time_) {
+      fail(file.path.string(), "begins no later than the scan before it");
+    }
+    previous_time_ = scan.t_begin;
+    return scan;
+  }
+
+  /// Judges the points' times over the first scans, as any one of them may be bad.
+  void learn_times() {
+    constexpr std::size_t kCount = 5;
+    std::vector<CloudMessage> first;
+    for (std::size_t i = 0; i < std::min(kCount, scans_.size()); ++i) {
+      try {
+        first.push_back({scans_[i].time, read_points(scans_[i].path.string())});
+        first.back().records.source = path_;
+      } catch (const std::runtime_error&) {
+        continue;  // next_scan() counts it
+      }
+    }
+    converter_.learn(first);
+    info_.has_point_times = converter_.has_point_times();
+  }
+
+  std::string path_;
   std::vector<ScanFile> scans_;
   ScanConverter converter_;
-  SequenceInfo info_;
+  LeftOut bad_scans_{"scans are"};
+  mutable SequenceInfo info_;
+  std::size_t fixed_notes_ = 0;  ///< the notes before those that change while reading
   std::size_t next_ = 0;
   double previous_time_ = -std::numeric_limits<double>::infinity();
 };

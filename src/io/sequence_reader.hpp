@@ -8,7 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "io/scan_converter.hpp"
+#include "io/message_clock.hpp"
+#include "io/point_times.hpp"
 #include "lio/sensor_data.hpp"
 #include "nvm/geometry/pose.hpp"
 
@@ -27,8 +28,12 @@ struct SequenceOptions {
   std::string imu_topic;    ///< of a bag; empty: the first one with IMU messages
   AccelUnit accel_unit = AccelUnit::kAutomatic;  ///< of a bag
   TimeUnit point_time_unit = TimeUnit::kAutomatic;
-  double max_imu_gap = 1.0;  ///< [s]; a longer one is an error, a shorter one a note
-  double scan_rate = 10.0;   ///< [Hz], 0.01 to 1000; of scan files without any time
+  /// Field with the points' times, "azimuth" of raw scans of a spinning sensor, or "none"; empty:
+  /// by its name, and for messages without one the azimuth
+  std::string point_time_field;
+  StampMeaning stamp = StampMeaning::kAutomatic;  ///< of a scan
+  ClockChoice clock = ClockChoice::kAutomatic;    ///< of a bag
+  double scan_rate = 10.0;  ///< [Hz], 0.01 to 1000; of scan files without any time
 };
 
 /// What is known of a sequence before its first scan is read.
@@ -39,6 +44,8 @@ struct SequenceInfo {
   bool has_point_times = false;
   Pose T_imu_lidar = Pose::Identity();  ///< extrinsic; identity when the sequence does not tell
   std::vector<std::string> notes;       ///< what the user should know; grows while reading
+  std::size_t skipped_scans = 0;        ///< so far: could not be read, repeat or go back in time
+  std::size_t skipped_imu_samples = 0;  ///< so far, for the same reasons
 };
 
 /// Reads a recorded sequence one scan at a time, so that a sequence larger than memory can run.
