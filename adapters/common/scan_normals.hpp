@@ -14,8 +14,16 @@ namespace nvm::adapters {
 /// one per sensor.
 class ScanNormals {
  public:
+  /// Hosts keep every third or fourth return: with the radius that suits a whole scan half of the
+  /// points have too few neighbours, and the floor under a spinning sensor is a set of lines. Both
+  /// are tried again with twice the radius.
+  static NormalOptions defaults() {
+    NormalOptions options;
+    options.widening = 2.0;
+    return options;
+  }
   /// Throws std::invalid_argument when the options are out of range.
-  explicit ScanNormals(const NormalOptions& options = {}) : estimator_(options) {}
+  explicit ScanNormals(const NormalOptions& options = defaults()) : estimator_(options) {}
 
   /// Sets normal_x, normal_y, normal_z of each of `points` from its neighbours in `full_scan`, from
   /// which a host thins `points`. Both in the frame of the sensor, which is at `p_sensor` [m]. The

@@ -130,6 +130,7 @@ TEST(RosHosts, IVoxHostsSearchInParallel) {
   IVoxType::Options options;
   options.resolution_ = 0.3F;
   options.nearby_type_ = IVoxType::NearbyType::NEARBY18;
+  options.nvm.map.min_point_distance = 0.0;  // all that the node's map has kept
   const auto ivox = make_shared<IVoxType>(options);
   ivox->AddPoints(map.points);
   EXPECT_EQ(ivox->NumPoints(), map.size());
