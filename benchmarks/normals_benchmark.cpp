@@ -102,6 +102,25 @@ using Tree = nanoflann::
     KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Cloud>, Cloud, 3, std::uint32_t>;
 using Found = std::vector<std::pair<std::uint32_t, float>>;
 
+// What every nanoflann since 1.4 asks of a result set.
+struct Ball {
+  using DistanceType = float;
+  using IndexType = std::uint32_t;
+
+  bool addPoint(float sq_distance, std::uint32_t index) {
+    found.emplace_back(index, sq_distance);
+    return true;
+  }
+  float worstDist() const { return sq_radius; }
+  bool full() const { return true; }
+  bool empty() const { return found.empty(); }
+  std::size_t size() const { return found.size(); }
+  void sort() {}
+
+  float sq_radius;
+  Found& found;
+};
+
 // The normal of point `i` from its neighbours, turned to the origin; zero when they are too few.
 Eigen::Vector3f fitted_normal(const Points& points, std::size_t i, const Found& neighbors) {
   if (neighbors.size() < 6) {
@@ -122,14 +141,14 @@ void nanoflann_baseline(benchmark::State& state, const NormalOptions& options) {
   const RadiusLaw radius(options);
   std::vector<Eigen::Vector3f> normals(points.size());
   Found found;
-  nanoflann::SearchParams unsorted;
-  unsorted.sorted = false;
   for (auto _ : state) {
     const Cloud cloud{points};
     const Tree tree(3, cloud);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const auto r = static_cast<float>(radius(points[i].cast<double>().squaredNorm()));
-      tree.radiusSearch(points[i].data(), r * r, found, unsorted);
+      found.clear();
+      Ball ball{r * r, found};
+      tree.findNeighbors(ball, points[i].data(), {});
       normals[i] = fitted_normal(points, i, found);
     }
     benchmark::DoNotOptimize(normals.data());

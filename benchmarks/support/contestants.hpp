@@ -90,7 +90,7 @@ struct Nanoflann {
     build();
     nanoflann::KNNResultSet<double, std::uint32_t> result(wanted);
     result.init(ids.data(), sq_distances.data());
-    tree->findNeighbors(result, query.point.data(), nanoflann::SearchParams());
+    tree->findNeighbors(result, query.point.data(), {});
     return result.size();
   }
   double sq_distance(std::size_t i) const { return sq_distances[i]; }

@@ -64,19 +64,43 @@ struct Patches {
   Patch same_side;
 };
 
+/// What every nanoflann since 1.4 asks of a result set.
+class PatchCollector {
+ public:
+  using DistanceType = double;
+  using IndexType = std::size_t;
+
+  PatchCollector(const std::vector<OrientedPoint>& points, std::size_t center, double radius)
+      : points_(points), normal_(points[center].normal), sq_radius_(radius * radius) {}
+
+  bool addPoint(double sq_distance, std::size_t index) {
+    if (sq_distance < sq_radius_) {
+      patches.all.push_back(points_[index].position);
+      if (points_[index].normal.dot(normal_) >= 0.0) {
+        patches.same_side.push_back(points_[index].position);
+      }
+    }
+    return true;
+  }
+  double worstDist() const { return sq_radius_; }
+  bool full() const { return true; }
+  bool empty() const { return patches.all.empty(); }
+  std::size_t size() const { return patches.all.size(); }
+  void sort() {}
+
+  Patches patches;
+
+ private:
+  const std::vector<OrientedPoint>& points_;
+  Eigen::Vector3d normal_;
+  double sq_radius_;
+};
+
 Patches patches_around(
     const std::vector<OrientedPoint>& points, const Tree& tree, std::size_t center, double radius) {
-  std::vector<std::pair<std::uint32_t, double>> found;
-  tree.radiusSearch(
-      points[center].position.data(), radius * radius, found, nanoflann::SearchParams());
-  Patches patches;
-  for (const auto& [index, sq_distance] : found) {
-    patches.all.push_back(points[index].position);
-    if (points[index].normal.dot(points[center].normal) >= 0.0) {
-      patches.same_side.push_back(points[index].position);
-    }
-  }
-  return patches;
+  PatchCollector collector(points, center, radius);
+  tree.findNeighbors(collector, points[center].position.data(), {});
+  return collector.patches;
 }
 
 bool is_planar(const Eigen::Vector3d& variances) {

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <random>
 #include <vector>
@@ -91,6 +92,13 @@ TEST(KdTreeMap, EmptyMapAndBadQueriesFindNothing) {
   map.insert_unsided(std::vector<Eigen::Vector3d>{{1.0, 0.0, 0.0}});
   const double inf = std::numeric_limits<double>::infinity();
   EXPECT_EQ(map.nearest({inf, 0.0, 0.0}, kUp, {}, &found, context), 0U);
+  const Eigen::Vector3d near(1.1, 0.0, 0.0);
+  found.id = 77;
+  EXPECT_EQ(map.nearest(near, kUp, {0, 1.0}, &found, context), 0U);
+  EXPECT_EQ(map.nearest(near, kUp, {1, -1.0}, &found, context), 0U);
+  EXPECT_EQ(map.nearest(near, kUp, {1, std::nan("")}, &found, context), 0U);
+  EXPECT_EQ(found.id, 77U);
+  EXPECT_EQ(map.nearest(near, kUp, {1, inf}, &found, context), 1U);
   EXPECT_THROW(KdTreeMap(0.0), std::invalid_argument);
 }
 

@@ -12,6 +12,7 @@
 #include <nanoflann.hpp>
 #include <vector>
 
+#include "nvm/core/finite.hpp"
 #include "nvm/core/point_access.hpp"
 #include "nvm/core/require.hpp"
 #include "nvm/geometry/pose.hpp"
@@ -23,8 +24,8 @@
 namespace nvm {
 
 /// A map of bare points in a k-d tree that is rebuilt at every insertion: the baseline that knows
-/// no normals and no sides, with exact neighbours at any distance. Models the map concept. Grows
-/// without bound; insertion costs O(n log n) of the whole map.
+/// no normals and no sides, with exact neighbours at any distance. Models the map concept, by
+/// nanoflann 1.4 or later. Grows without bound; insertion costs O(n log n) of the whole map.
 class KdTreeMap {
  public:
   struct QueryContext {};
@@ -74,22 +75,13 @@ class KdTreeMap {
       const NearestSearch& search,
       Neighbor* out,
       QueryContext& /*context*/) const noexcept {
-    if (points_.empty() || !point.allFinite()) {
+    if (points_.empty() || search.count == 0 || !detail::all_finite(point) ||
+        !detail::is_distance(search.max_distance)) {
       return 0;
     }
-    const std::size_t count = std::clamp<std::size_t>(search.count, 1, kMaxNeighbors);
-    std::array<std::uint32_t, kMaxNeighbors> indices;
-    std::array<double, kMaxNeighbors> sq_distances;
-    nanoflann::KNNResultSet<double, std::uint32_t> found(count);
-    found.init(indices.data(), sq_distances.data());
-    // The result set takes what is nearer than its last entry: that bounds the search, inclusively.
-    sq_distances[count - 1] = std::nextafter(
-        search.max_distance * search.max_distance, std::numeric_limits<double>::infinity());
-    tree_.findNeighbors(found, point.data(), nanoflann::SearchParams());
-    for (std::size_t i = 0; i < found.size(); ++i) {
-      out[i] = {points_[indices[i]], static_cast<float>(sq_distances[i]), indices[i]};
-    }
-    return found.size();
+    Nearest found(search);
+    tree_.findNeighbors(found, point.data(), {});
+    return found.write(points_, out);
   }
 
   /// Stored points, map frame [m].
@@ -107,6 +99,54 @@ class KdTreeMap {
   }
 
  private:
+  /// The nearest points so far, ascending: what every nanoflann since 1.4 asks of a result set, and
+  /// bounded by the largest distance of the search.
+  class Nearest {
+   public:
+    using DistanceType = double;
+    using IndexType = std::uint32_t;
+
+    // The tree asks for what is nearer than worstDist(), and points may lie at max_distance.
+    explicit Nearest(const NearestSearch& search)
+        : wanted_(std::min(search.count, kMaxNeighbors)),
+          end_(std::nextafter(
+              search.max_distance * search.max_distance, std::numeric_limits<double>::infinity())) {
+    }
+
+    bool addPoint(double sq_distance, std::uint32_t index) {
+      if (sq_distance < worstDist()) {
+        count_ -= full() ? 1U : 0U;
+        std::size_t place = count_++;
+        for (; place > 0 && sq_distances_[place - 1] > sq_distance; --place) {
+          sq_distances_[place] = sq_distances_[place - 1];
+          indices_[place] = indices_[place - 1];
+        }
+        sq_distances_[place] = sq_distance;
+        indices_[place] = index;
+      }
+      return true;
+    }
+    double worstDist() const { return full() ? sq_distances_[count_ - 1] : end_; }
+    bool full() const { return count_ == wanted_; }
+    bool empty() const { return count_ == 0; }
+    std::size_t size() const { return count_; }
+    void sort() {}
+
+    std::size_t write(const std::vector<Eigen::Vector3d>& points, Neighbor* out) const {
+      for (std::size_t i = 0; i < count_; ++i) {
+        out[i] = {points[indices_[i]], static_cast<float>(sq_distances_[i]), indices_[i]};
+      }
+      return count_;
+    }
+
+   private:
+    std::size_t wanted_;
+    double end_;
+    std::size_t count_ = 0;
+    std::array<double, kMaxNeighbors> sq_distances_;
+    std::array<std::uint32_t, kMaxNeighbors> indices_;
+  };
+
   using Tree = nanoflann::KDTreeSingleIndexAdaptor<
       nanoflann::L2_Simple_Adaptor<double, KdTreeMap>,
       KdTreeMap,
@@ -115,7 +155,7 @@ class KdTreeMap {
 
   static double checked(double point_spacing) {
     require(
-        point_spacing > 0.0 && std::isfinite(point_spacing),
+        point_spacing > 0.0 && detail::is_finite(point_spacing),
         "point_spacing",
         point_spacing,
         "positive [m]");

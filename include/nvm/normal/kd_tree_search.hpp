@@ -27,7 +27,7 @@ class KdTreeSearch {
     for (std::size_t i = query.begin; i < query.end; ++i) {
       const float position[3] = {query.queries.x[i], query.queries.y[i], query.queries.z[i]};
       Neighborhood neighborhood(points_, position, query.queries.sq_radius[i]);
-      tree_.radiusSearchCustomCallback(position, neighborhood);
+      tree_.findNeighbors(neighborhood, position, {});
       set_lane(sums, i - query.begin, neighborhood.moments());
     }
   }
@@ -50,6 +50,9 @@ class KdTreeSearch {
   // way, so it is asked for a little more and the exact test is made here.
   class Neighborhood {
    public:
+    using DistanceType = float;
+    using IndexType = std::uint32_t;
+
     Neighborhood(const SortedPoints& points, const float (&position)[3], float sq_radius)
         : points_(points),
           x_(position[0]),
@@ -57,7 +60,7 @@ class KdTreeSearch {
           z_(position[2]),
           sq_radius_(sq_radius) {}
 
-    bool addPoint(float, std::size_t i) {
+    bool addPoint(float, std::uint32_t i) {
       const float dx = points_.x[i] - x_, dy = points_.y[i] - y_, dz = points_.z[i] - z_;
       if (sq_length(dx, dy, dz) <= sq_radius_) {
         moments_.add(1.0F, dx, dy, dz);
@@ -66,6 +69,7 @@ class KdTreeSearch {
     }
     float worstDist() const { return sq_radius_ * 1.00001F; }
     bool full() const { return true; }
+    bool empty() const { return size() == 0; }
     std::size_t size() const { return static_cast<std::size_t>(moments_.count); }
     void sort() {}
     const Moments<float>& moments() const { return moments_; }
