@@ -45,17 +45,17 @@ void walk_on(benchmark::State& state) {
 /// of which has to go: LRU touches what the scan touches, the radius rule looks at every voxel.
 template <Eviction kRule>
 void update(benchmark::State& state) {
-  MapOptions options = nvm_options();
-  options.eviction = kRule;
-  options.eviction_radius = 1e5;
-  VoxelMap map(options);
+  VoxelMap map(nvm_options());
   for (std::size_t i = 0; map.voxel_count() < static_cast<std::size_t>(state.range(0)); ++i) {
     const WallField::Patch patch = WallField::patch(i);
     map.insert(patch.points, patch.normals);
   }
   const CorridorScan scan = Corridor::scan(0);
   for (auto _ : state) {
-    map.insert(scan.points, scan.normals, scan.T_map_scan);
+    InsertStats stats = map.insert(scan.points, scan.normals, scan.T_map_scan);
+    if (kRule == Eviction::kRadius) {
+      map.keep_within(scan.T_map_scan.translation(), 1e5, stats);
+    }
   }
   state.counters["voxels"] = static_cast<double>(map.voxel_count());
 }

@@ -128,9 +128,8 @@ class HostMap {
 
   VoxelMap& make_map() {
     if (!map_) {
-      MapOptions options = options_.map;
-      options.eviction = Eviction::kLeastRecentlyUsed;  // by radius: see evict()
-      map_.reset(new VoxelMap(options));  // ct-lio has a std::make_unique of its own: ambiguous
+      map_.reset(
+          new VoxelMap(options_.map));  // ct-lio has a std::make_unique of its own: ambiguous
     }
     return *map_;
   }
@@ -163,10 +162,7 @@ class HostMap {
 
   InsertStats evict(InsertStats stats) {
     if (options_.map.eviction == Eviction::kRadius && normals_.view_point().allFinite()) {
-      const std::size_t voxels = map_->voxel_count();
-      stats.evicted_points +=
-          map_->erase_voxels_beyond(to_grid(normals_.view_point()), options_.map.eviction_radius);
-      stats.evicted_voxels += voxels - map_->voxel_count();
+      map_->keep_within(to_grid(normals_.view_point()), options_.map.eviction_radius, stats);
     }
     return stats;
   }

@@ -30,7 +30,7 @@ class VoxelLioMap : public LioMap {
   explicit VoxelLioMap(const MapOptions& options) : map_(options) {}
 
   InsertStats insert(const Points& points, const Points& normals, const Pose& T_map_scan) override {
-    return map_.insert(points, normals, T_map_scan);
+    return bounded(map_.insert(points, normals, T_map_scan), T_map_scan);
   }
 
   std::size_t nearest(
@@ -48,6 +48,15 @@ class VoxelLioMap : public LioMap {
   const VoxelMap* voxel_map() const override { return &map_; }
 
  protected:
+  /// Drops what is far from the sensor, with Eviction::kRadius; `stats` are those of its scan.
+  InsertStats bounded(InsertStats stats, const Pose& T_map_scan) {
+    const MapOptions& options = map_.options();
+    if (options.eviction == Eviction::kRadius) {
+      map_.keep_within(T_map_scan.translation(), options.eviction_radius, stats);
+    }
+    return stats;
+  }
+
   VoxelMap map_;
 };
 
@@ -63,7 +72,7 @@ class UnsidedLioMap final : public VoxelLioMap {
   InsertStats insert(const Points& points, const Points& normals, const Pose& T_map_scan) override {
     InsertStats stats = map_.insert_unsided(with_normal(points, normals, kept_), T_map_scan);
     stats.no_normal = points.size() - kept_.size();
-    return stats;
+    return bounded(stats, T_map_scan);
   }
 
   std::size_t nearest(

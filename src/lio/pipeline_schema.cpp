@@ -14,8 +14,38 @@ constexpr Range kShare{0.0, 1.0};
 constexpr Range kPositive{1e-12, 1e12};
 constexpr Range kNotNegative{0.0, 1e12};
 
+/// A key for each option that it visits; angles are written in degrees.
+struct OptionBinder {
+  Schema& schema;
+
+  template <class Value>
+  void operator()(const OptionInfo& info, Value& value) const {
+    schema.add(info.name, value, {info.min, info.max}, documentation(info));
+  }
+  void operator()(const OptionInfo& info, double& value) const {
+    if (std::string(info.unit) == "rad") {
+      constexpr double kDegrees = 57.29577951308232;
+      const Range range{info.min * kDegrees, info.max * kDegrees};
+      schema.add_angle(std::string(info.name) + "_deg", value, range, info.doc);
+    } else {
+      schema.add(info.name, value, {info.min, info.max}, documentation(info));
+    }
+  }
+  void operator()(const OptionInfo& info, bool& value) const {
+    schema.add(info.name, value, info.doc);
+  }
+  template <class Enum, std::size_t kCount>
+  void operator()(
+      const OptionInfo& info, Enum& value, const OptionChoices<Enum, kCount>& choices) const {
+    schema.add_choice<Enum>(info.name, value, {choices.begin(), choices.end()}, info.doc);
+  }
+
+  static std::string documentation(const OptionInfo& info) {
+    return *info.unit == '\0' ? info.doc : std::string(info.doc) + " [" + info.unit + "]";
+  }
+};
+
 void bind_map(Schema& schema, PipelineOptions& options) {
-  MapOptions& map = options.map;
   schema.add_choice<MapType>(
       "type",
       options.map_type,
@@ -25,34 +55,7 @@ void bind_map(Schema& schema, PipelineOptions& options) {
        {"reject", MapType::kReject},
        {"kdtree", MapType::kKdTree}},
       "Kind of map: two-sided, without normals, with a filter in or after the query, k-d tree");
-  schema.add("voxel_size", map.voxel_size, {0.01, 100.0}, "Edge of a voxel [m]");
-  schema.add("capacity", map.capacity, {1.0, 67108864.0}, "Voxels at most");
-  schema.add("max_bytes", map.max_bytes, kNotNegative, "Memory at most; 0: what capacity needs");
-  schema.add("points_per_surface", map.points_per_surface, {1.0, 120.0}, "Points at most");
-  schema.add(
-      "min_point_distance", map.min_point_distance, {0.0, 200.0}, "Between stored points [m]");
-  schema.add("space_across_voxels", map.space_across_voxels, "Also between those of two voxels");
-  schema.add(
-      "max_merged_points",
-      map.max_merged_points,
-      {1.0, 255.0},
-      "Points that a stored one becomes the mean plane of, at most; 1: it never moves");
-  schema.add("max_surfaces", map.max_surfaces, {1.0, 8.0}, "Surfaces of a voxel");
-  schema.add_choice<SurfaceRule>(
-      "surface_rule",
-      map.surface_rule,
-      {{"paper", SurfaceRule::kPaper}, {"smallest_angle", SurfaceRule::kSmallestAngle}},
-      "Which surface takes a point");
-  schema.add_angle(
-      "max_surface_angle_deg", map.max_surface_angle, {0.0, 180.0}, "Of a point to its surface");
-  schema.add_angle(
-      "max_point_angle_deg", map.max_point_angle, {0.0, 180.0}, "Of a neighbour to the query");
-  schema.add_choice<Eviction>(
-      "eviction",
-      map.eviction,
-      {{"lru", Eviction::kLeastRecentlyUsed}, {"radius", Eviction::kRadius}},
-      "What leaves the map");
-  schema.add("eviction_radius", map.eviction_radius, {0.01, 1e6}, "With eviction: radius [m]");
+  visit_options(options.map, OptionBinder{schema});
 }
 
 void bind_normals(Schema& schema, NormalOptions& normals) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <map>
 #include <set>
 #include <vector>
@@ -165,21 +166,40 @@ TEST(Lru, MaxBytesBoundsTheMapAndKeepsItWorking) {
   }
 }
 
-TEST(RadiusEviction, DropsWhatIsFarFromTheSensor) {
+TEST(RadiusEviction, KeepsWhatIsNear) {
   std::mt19937_64 rng = test::rng();
-  MapOptions options;
-  options.eviction = Eviction::kRadius;
-  options.eviction_radius = 10.0;
-  VoxelMap map(options);
+  VoxelMap map;
+  std::size_t stored = 0;
   for (int scan = 0; scan < 40; ++scan) {
     Pose T = Pose::Identity();
     T.translation().x() = scan;
     const test::Cloud cloud = test::uniform_cloud(2000, 30.0, Eigen::Vector3d::Zero(), rng);
-    map.insert(cloud.points, cloud.normals, T);
+    InsertStats stats = map.insert(cloud.points, cloud.normals, T);
+    const std::size_t voxels = map.voxel_count();
+    ASSERT_EQ(stats.evicted_points, 0U);
+    map.keep_within(T.translation(), 10.0, stats);
+    stored += stats.stored;
+    stored -= stats.evicted_points;
+    ASSERT_EQ(map.size(), stored);
+    ASSERT_EQ(voxels - map.voxel_count(), stats.evicted_voxels);
+    ASSERT_GT(stats.evicted_voxels, 100U);
     map.for_each_point([&](const MapPoint& point) {
       ASSERT_LE((point.position - T.translation()).norm(), 10.0 + 0.27);  // half a voxel's diagonal
     });
   }
+}
+
+// A robot has driven 150 m; its host inserts points that are in the map frame already.
+TEST(RadiusEviction, IsNoPartOfInsertion) {
+  MapOptions options;
+  options.eviction = Eviction::kRadius;
+  options.eviction_radius = 100.0;
+  VoxelMap map(options);
+  const InsertStats stats =
+      map.insert(Points{{150.1, 0.1, 0.1}}, Normals{Eigen::Vector3f::UnitZ()});
+  EXPECT_EQ(stats.stored, 1U);
+  EXPECT_EQ(stats.evicted_points, 0U);
+  EXPECT_EQ(map.size(), 1U);
 }
 
 TEST(Erase, LeavesExactlyWhatIsOutside) {
@@ -250,6 +270,8 @@ TEST(Erase, EverythingInAnyWay) {
   EXPECT_EQ(map.erase_within({0, 0, 0}, nan), 0U);
   EXPECT_EQ(map.erase_within({0, 0, 0}, -1.0), 0U);
   EXPECT_EQ(map.erase_voxels_beyond({nan, 0, 0}, 1.0), 0U);
+  EXPECT_EQ(map.erase_voxels_beyond({0, 0, 0}, nan), 0U);
+  EXPECT_EQ(map.erase_voxels_beyond({0, 0, 0}, -1.0), 0U);
 }
 
 TEST(RadiusQuery, FindsWhatBruteForceFinds) {
@@ -275,6 +297,32 @@ TEST(RadiusQuery, FindsWhatBruteForceFinds) {
   const auto none = [](const Neighbor&) { FAIL(); };
   map.for_each_within({std::nan(""), 0, 0}, 1.0, none);
   map.for_each_within({0, 0, 0}, -1.0, none);
+}
+
+// Brick indices that far away do not fit into 32 bits: converting them gave an endless loop.
+TEST(Erase, FarAwayFindsNothing) {
+  std::mt19937_64 rng = test::rng();
+  const test::Cloud cloud = test::uniform_cloud(2000, 12.0, Eigen::Vector3d::Zero(), rng);
+  VoxelMap map;
+  map.insert(cloud.points, cloud.normals);
+  const std::size_t size = map.size();
+  const double inf = std::numeric_limits<double>::infinity();
+  for (const double far : {3.2e5, 2147483647 * 1.2 + 0.6, 2147483648 * 1.2, 1e10, 1e300}) {
+    for (const double x : {far, -far}) {
+      EXPECT_EQ(map.erase_within({x, 0, 0}, 0.1), 0U) << x;
+      EXPECT_EQ(map.erase_within({0, x, x}, 0.1), 0U) << x;
+      EXPECT_EQ(map.erase_box({x, 0, 0}, {x, 0.1, 0.1}), 0U) << x;
+      map.for_each_within({0, 0, x}, 0.1, [](const Neighbor&) { FAIL(); });
+    }
+  }
+  EXPECT_EQ(map.erase_box({1, 1, 1}, {-1, -1, -1}), 0U);
+  EXPECT_EQ(map.erase_box({-inf, -inf, inf}, {inf, inf, inf}), 0U);
+  EXPECT_EQ(map.size(), size);
+  std::size_t found = 0;
+  map.for_each_within({0, 0, 0}, inf, [&](const Neighbor&) { ++found; });
+  map.for_each_within({1e10, 0, 0}, 1.1e10, [&](const Neighbor&) { ++found; });
+  EXPECT_EQ(found, 2 * size);
+  EXPECT_EQ(map.erase_box({-inf, -inf, -inf}, {inf, inf, inf}), size);
 }
 
 }  // namespace

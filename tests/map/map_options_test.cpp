@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "nvm/map/voxel_map.hpp"
 
@@ -43,6 +44,27 @@ TEST(MapOptions, NamesTheBadOne) {
   EXPECT_THAT(
       message([](MapOptions& o) { o.eviction_radius = 0.1; }), HasSubstr("eviction_radius = 0.1"));
   EXPECT_THAT(message([](MapOptions& o) { o.max_bytes = 1000; }), HasSubstr("max_bytes = 1000"));
+  EXPECT_THAT(
+      message([](MapOptions& o) { o.eviction_radius = std::nan(""); }),
+      HasSubstr("eviction_radius"));
+  EXPECT_THAT(
+      message([](MapOptions& o) { o.eviction = static_cast<Eviction>(2); }),
+      HasSubstr("eviction = 2"));
+}
+
+// An option that visit_options() forgets is in no map file and no configuration. The names below
+// must be as many as MapOptions has members, or this does not compile.
+TEST(MapOptions, AreAllVisitedInOrder) {
+  MapOptions options;
+  auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = options;
+  const std::vector<void*> members{&a, &b, &c, &d, &e, &f, &g, &h, &i, &j, &k, &l, &m};
+  std::vector<void*> visited;
+  visit_options(options, [&](const OptionInfo& info, auto& value, const auto&... /*choices*/) {
+    visited.push_back(&value);
+    EXPECT_LT(info.min, info.max) << info.name;
+    EXPECT_STRNE(info.doc, "") << info.name;
+  });
+  EXPECT_EQ(visited, members);
 }
 
 }  // namespace

@@ -130,12 +130,6 @@ INSTANTIATE_TEST_SUITE_P(
             }},
         Setting{"SmallSurfaces", [](MapOptions& o) { o.points_per_surface = 5; }},
         Setting{"Dense", [](MapOptions& o) { o.min_point_distance = 0.0; }},
-        Setting{
-            "RadiusEviction",
-            [](MapOptions& o) {
-              o.eviction = Eviction::kRadius;
-              o.eviction_radius = 2.0;
-            }},
         Setting{"Merging", [](MapOptions& o) { o.max_merged_points = 8; }},
         Setting{"Capacity", [](MapOptions& o) { o.capacity = 500; }},
         Setting{"SpaceAcrossVoxels", [](MapOptions& o) { o.space_across_voxels = true; }}),

@@ -2,6 +2,10 @@
 // Copyright (c) 2026 The nvm authors
 #pragma once
 
+#if !defined(__cpp_exceptions)
+#error "nvm reports bad options and files by exceptions: compile without -fno-exceptions"
+#endif
+
 #include <sstream>
 #include <stdexcept>
 

@@ -6,6 +6,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "nvm/core/finite.hpp"
+
 namespace nvm {
 
 /// A rigid transform T_a_b that maps coordinates of frame b to frame a. DontAlign, because the
@@ -47,7 +49,7 @@ inline Eigen::Vector3d so3_log(const Eigen::Matrix3d& R) {
 /// R^T R within `tolerance` of the identity's.
 inline bool is_rigid(const Pose& pose, double tolerance = 1e-6) {
   const Eigen::Matrix3d R = pose.linear();
-  return pose.matrix().allFinite() && (R.transpose() * R).isIdentity(tolerance) &&
+  return detail::all_finite(pose.matrix()) && (R.transpose() * R).isIdentity(tolerance) &&
          R.determinant() > 0.0;
 }
 

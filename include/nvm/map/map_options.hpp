@@ -4,6 +4,7 @@
 
 #include <cstddef>
 
+#include "nvm/core/option.hpp"
 #include "nvm/core/require.hpp"
 
 namespace nvm {
@@ -19,7 +20,8 @@ enum class SurfaceRule {
 enum class Eviction {
   kLeastRecentlyUsed,  ///< only a full map evicts, and the voxel that has been unused for longest
                        ///< goes first
-  kRadius,  ///< each insertion also drops the voxels farther than eviction_radius from the sensor
+  kRadius,  ///< whoever knows where the sensor is also calls VoxelMap::keep_within() after each
+            ///< scan, with eviction_radius: insertion itself never drops what is far
 };
 
 /// Configuration of a VoxelMap. Aggregate; the map's constructor validates it.
@@ -44,8 +46,7 @@ struct MapOptions {
   /// until that one stands for this many; then it stays, so that the map does not follow a drifting
   /// trajectory. With 1 stored points never move. Needs normals, and 8 bytes more per 8 points.
   /// Moved points may come nearer to each other than min_point_distance. Insertion then takes one
-  /// thread, whatever its executor. Not kept in map files; what an erasure leaves of a surface
-  /// counts anew.
+  /// thread, whatever its executor. What an erasure leaves of a surface counts anew.
   int max_merged_points = 1;
   /// Surfaces in a voxel, 1 to 8: 2 for front and back, 1 for a map that does not tell sides apart.
   int max_surfaces = 2;
@@ -62,48 +63,73 @@ struct MapOptions {
 
   /// Throws std::invalid_argument with the name, the value and the allowed range of the first bad
   /// member.
-  void validate() const {
-    constexpr double kPi = 3.141592653589793;
-    require(
-        voxel_size >= 0.01 && voxel_size <= 100.0, "voxel_size", voxel_size, "from 0.01 to 100 m");
-    require(
-        capacity >= 1 && capacity <= kMaxCapacity, "capacity", capacity, "from 1 to 2^26 voxels");
-    require(
-        max_bytes == 0 || max_bytes >= kMinBytes,
-        "max_bytes",
-        max_bytes,
-        "0 (no limit) or at least 1 MiB");
-    require(
-        points_per_surface >= 1 && points_per_surface <= kMaxPointsPerSurface,
-        "points_per_surface",
-        points_per_surface,
-        "from 1 to 120");
-    require(
-        min_point_distance >= 0.0 && min_point_distance <= 2.0 * voxel_size,
-        "min_point_distance",
-        min_point_distance,
-        "from 0 to twice the voxel size");
-    require(
-        max_merged_points >= 1 && max_merged_points <= 255,
-        "max_merged_points",
-        max_merged_points,
-        "from 1 to 255");
-    require(max_surfaces >= 1 && max_surfaces <= 8, "max_surfaces", max_surfaces, "from 1 to 8");
-    const auto require_angle = [](const char* name, double angle) {
-      require(angle >= 0.0 && angle <= kPi, name, angle, "from 0 to pi rad");
-    };
-    require_angle("max_surface_angle", max_surface_angle);
-    require_angle("max_point_angle", max_point_angle);
-    require(
-        eviction_radius >= voxel_size,
-        "eviction_radius",
-        eviction_radius,
-        "at least the voxel size");
-  }
+  void validate() const;
 
   static constexpr std::size_t kMaxCapacity = std::size_t{1} << 26;
   static constexpr std::size_t kMinBytes = std::size_t{1} << 20;
   static constexpr int kMaxPointsPerSurface = 120;
 };
+
+/// Walks over the options (nvm/core/option.hpp); `Options` is MapOptions, const or not.
+template <class Options, class Visitor>
+void visit_options(Options& options, Visitor&& visit) {
+  constexpr double kPi = 3.141592653589793;
+  constexpr double kMostBytes = 9.2e18;
+  using Rules = OptionChoices<SurfaceRule, 2>;
+  using Evictions = OptionChoices<Eviction, 2>;
+  visit({"voxel_size", 0.01, 100.0, "m", "Edge of a voxel"}, options.voxel_size);
+  visit(
+      {"capacity", 1.0, MapOptions::kMaxCapacity, "voxels", "What it holds at most"},
+      options.capacity);
+  visit(
+      {"max_bytes", 0.0, kMostBytes, "bytes", "Memory at most; 0: what capacity needs"},
+      options.max_bytes);
+  visit(
+      {"points_per_surface", 1.0, MapOptions::kMaxPointsPerSurface, "", "Points at most"},
+      options.points_per_surface);
+  visit(
+      {"min_point_distance", 0.0, 200.0, "m", "Between stored points"}, options.min_point_distance);
+  visit(
+      {"space_across_voxels", 0.0, 1.0, "", "Also between those of two voxels"},
+      options.space_across_voxels);
+  visit(
+      {"max_merged_points",
+       1.0,
+       255.0,
+       "",
+       "Points that a stored one becomes the mean plane of, at most; 1: it never moves"},
+      options.max_merged_points);
+  visit({"max_surfaces", 1.0, 8.0, "", "Surfaces of a voxel"}, options.max_surfaces);
+  visit(
+      {"surface_rule", 0.0, 1.0, "", "Which surface takes a point"},
+      options.surface_rule,
+      Rules{{{"paper", SurfaceRule::kPaper}, {"smallest_angle", SurfaceRule::kSmallestAngle}}});
+  visit(
+      {"max_surface_angle", 0.0, kPi, "rad", "Of a point to its surface"},
+      options.max_surface_angle);
+  visit(
+      {"max_point_angle", 0.0, kPi, "rad", "Of a neighbour to the query"}, options.max_point_angle);
+  visit(
+      {"eviction", 0.0, 1.0, "", "What leaves the map"},
+      options.eviction,
+      Evictions{{{"lru", Eviction::kLeastRecentlyUsed}, {"radius", Eviction::kRadius}}});
+  visit({"eviction_radius", 0.01, 1e9, "m", "With eviction: radius"}, options.eviction_radius);
+}
+
+inline void MapOptions::validate() const {
+  visit_options(*this, detail::OptionValidator());
+  require(
+      max_bytes == 0 || max_bytes >= kMinBytes,
+      "max_bytes",
+      max_bytes,
+      "0 (no limit) or at least 1 MiB");
+  require(
+      min_point_distance <= 2.0 * voxel_size,
+      "min_point_distance",
+      min_point_distance,
+      "from 0 to twice the voxel size");
+  require(
+      eviction_radius >= voxel_size, "eviction_radius", eviction_radius, "at least the voxel size");
+}
 
 }  // namespace nvm

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 
+#include "nvm/core/finite.hpp"
 #include "nvm/core/point_access.hpp"
 
 namespace nvm {
@@ -16,7 +17,7 @@ template <class Point>
 Eigen::Vector3f view_direction(const Point& point, const Eigen::Vector3d& origin) {
   const Eigen::Vector3d ray = origin - position(point);
   const double length = ray.norm();
-  const bool valid = length > 0.0 && length <= 1e12;
+  const bool valid = detail::is_finite(length) && length > 0.0 && length <= 1e12;
   return valid ? Eigen::Vector3f((ray / length).cast<float>()) : Eigen::Vector3f::Zero();
 }
 

@@ -4,11 +4,10 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <cstddef>
-#include <cstdint>
 #include <stdexcept>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "nvm/core/executor.hpp"
@@ -20,9 +19,8 @@
 #include "nvm/map/map_options.hpp"
 #include "nvm/map/map_point.hpp"
 #include "nvm/map/neighbor.hpp"
-#include "nvm/map/operations/answer.hpp"
-#include "nvm/map/operations/candidates.hpp"
 #include "nvm/map/operations/erasure.hpp"
+#include "nvm/map/operations/gated_nearest.hpp"
 #include "nvm/map/operations/insertion.hpp"
 #include "nvm/map/operations/nearest_query.hpp"
 #include "nvm/map/operations/parallel_insertion.hpp"
@@ -60,6 +58,26 @@ class VoxelMap {
         capacity_(detail::map_capacity(options)),
         storage_(capacity_),
         gate_(detail::normal_gate(options)) {}
+
+  /// A map that was moved from is empty, keeps its options, and takes memory again when it is used.
+  VoxelMap(VoxelMap&& other) noexcept
+      : options_(other.options_),
+        lattice_(other.lattice_),
+        capacity_(other.capacity_),
+        storage_(std::exchange(other.storage_, {})),
+        gate_(other.gate_) {
+    other.cache_.clear();
+  }
+  VoxelMap& operator=(VoxelMap&& other) noexcept {
+    options_ = other.options_;
+    lattice_ = other.lattice_;
+    capacity_ = other.capacity_;
+    storage_ = std::exchange(other.storage_, {});
+    gate_ = other.gate_;
+    cache_.clear();
+    other.cache_.clear();
+    return *this;
+  }
 
   const MapOptions& options() const noexcept { return options_; }
 
@@ -131,10 +149,10 @@ class VoxelMap {
     }
     detail::NormalGate gate = gate_;
     gate.normal = detail::store_normal(normal);
-    if (search.gate == Gate::kPoints) {
-      return nearest_gated(point, detail::PointGate{gate}, search, out, context);
-    }
-    return nearest_gated(point, gate, search, out, context);
+    const detail::NearestRequest request{point, search, out, context};
+    return search.gate == Gate::kPoints
+               ? detail::gated_nearest(storage_, lattice_, detail::PointGate{gate}, request)
+               : detail::gated_nearest(storage_, lattice_, gate, request);
   }
 
   /// The same without normals: both sides.
@@ -143,7 +161,8 @@ class VoxelMap {
       const NearestSearch& search,
       Neighbor* out,
       QueryContext& context) const noexcept {
-    return nearest_gated(point, detail::NoGate{}, search, out, context);
+    return detail::gated_nearest(
+        storage_, lattice_, detail::NoGate{}, {point, search, out, context});
   }
 
   /// Calls visit(const Neighbor&) for every stored point within `radius` [m] of `center`, in no
@@ -195,6 +214,14 @@ class VoxelMap {
     cache_.clear();
     return before - size();
   }
+  /// The same as eviction, counted in the statistics of the scan that was inserted last: what a
+  /// pipeline or host that bounds its map by distance calls after each scan, because only it knows
+  /// where the sensor is.
+  void keep_within(const Eigen::Vector3d& center, double radius, InsertStats& stats) {
+    const std::size_t voxels = voxel_count();
+    stats.evicted_points += erase_voxels_beyond(center, radius);
+    stats.evicted_voxels += voxels - voxel_count();
+  }
   void clear() noexcept {
     storage_.clear();
     cache_.clear();
@@ -222,6 +249,9 @@ class VoxelMap {
       throw std::invalid_argument(
           "nvm: T_map_scan must be rigid: finite, with an orthonormal rotation");
     }
+    if (!storage_.has_memory()) {
+      storage_ = detail::VoxelStorage(capacity_);
+    }
     detail::Insertion insertion(options_, lattice_, gate_, storage_, cache_);
     std::size_t inserted = 0;
     if constexpr (!std::is_same_v<Executor, SerialExecutor>) {
@@ -236,47 +266,8 @@ class VoxelMap {
       fill(begin, end, block);
       insertion.insert(block, end - begin);
     }
-    InsertStats& stats = insertion.stats();
-    if (options_.eviction == Eviction::kRadius) {
-      const std::size_t voxels = voxel_count();
-      stats.evicted_points +=
-          erase_voxels_beyond(T_map_scan.translation(), options_.eviction_radius);
-      stats.evicted_voxels += voxels - voxel_count();
-    }
     storage_.recency().begin_epoch();  // the queries that follow are more recent
-    return stats;
-  }
-
-  template <class Gate>
-  std::size_t nearest_gated(
-      const Eigen::Vector3d& position,
-      const Gate& gate,
-      const NearestSearch& search,
-      Neighbor* out,
-      QueryContext& context) const noexcept {
-    detail::LatticePoint point;
-    const int wanted = static_cast<int>(std::min(search.count, kMaxNeighbors));
-    if (wanted == 0 || !(search.max_distance >= 0.0) ||
-        lattice_.locate(position, point) != detail::LatticeStatus::kInside) {
-      return 0;
-    }
-    const std::int32_t limit = lattice_.sq_steps(search.max_distance) + 1;
-    context.enter(storage_, detail::brick_index(point.voxel));
-    const detail::NearestQuery<Gate> query(storage_, point, gate, context.is_new_place());
-    detail::Candidates found(wanted);
-    for (std::int32_t reach = context.guess(wanted, limit);; reach = limit) {
-      query.collect(context.brick(), reach, found);
-      if (found.count() >= wanted || reach == limit) {
-        break;
-      }
-    }
-    std::array<std::uint8_t, kMaxNeighbors> order;
-    const int count = found.nearest(order.data());
-    const auto last = static_cast<std::size_t>(std::max(count, 1) - 1);
-    context.learn(wanted, count == wanted ? found.sq_distance(order[last]) : limit);
-    detail::Answer(storage_, lattice_, point)
-        .write(found, order.data(), static_cast<std::size_t>(count), out);
-    return static_cast<std::size_t>(count);
+    return insertion.stats();
   }
 
   template <class Region>

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "nvm/core/finite.hpp"
 #include "nvm/core/point_access.hpp"
 #include "nvm/normal/normal_options.hpp"
 #include "nvm/normal/normal_result.hpp"
@@ -80,8 +81,8 @@ class Localizer {
       std::size_t i,
       LocalPoints& local) const {
     const double sq_range = (point - viewpoint).squaredNorm();
-    if (!(sq_range <= sq_max_range_)) {
-      return point.allFinite() && viewpoint.allFinite() ? NormalStatus::kTooFar
+    if (magnitude(sq_range) > magnitude(sq_max_range_)) {  // NaN is
+      return all_finite(point) && all_finite(viewpoint) ? NormalStatus::kTooFar
                                                         : NormalStatus::kNonFinite;
     }
     if (sq_range < sq_min_range_) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "nvm/core/executor.hpp"
+#include "nvm/core/finite.hpp"
 #include "nvm/core/point_access.hpp"
 #include "nvm/core/require.hpp"
 #include "nvm/normal/block_search.hpp"
@@ -114,7 +115,8 @@ class NormalEstimator {
       return position(viewpoints);
     } else {
       for (std::size_t i = 0; i < viewpoints.size(); ++i) {
-        if (const Eigen::Vector3d viewpoint = position(viewpoints[i]); viewpoint.allFinite()) {
+        if (const Eigen::Vector3d viewpoint = position(viewpoints[i]);
+            detail::all_finite(viewpoint)) {
           return viewpoint;
         }
       }

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "nvm/core/finite.hpp"
 #include "nvm/core/require.hpp"
 #include "nvm/map/map_concept.hpp"
 #include "nvm/map/neighbor.hpp"
@@ -98,12 +99,12 @@ inline void AssociationOptions::validate() const {
       min_neighbors,
       "3 to neighbors");
   require(
-      max_neighbor_distance > 0.0 && std::isfinite(max_neighbor_distance),
+      max_neighbor_distance > 0.0 && detail::is_finite(max_neighbor_distance),
       "max_neighbor_distance",
       max_neighbor_distance,
       "positive [m]");
   require(
-      max_plane_distance > 0.0 && std::isfinite(max_plane_distance),
+      max_plane_distance > 0.0 && detail::is_finite(max_plane_distance),
       "max_plane_distance",
       max_plane_distance,
       "positive [m]");

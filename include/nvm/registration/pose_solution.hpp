@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "nvm/core/finite.hpp"
 #include "nvm/registration/normal_equations.hpp"
 #include "nvm/registration/point_to_plane.hpp"
 
@@ -28,7 +29,7 @@ struct PoseSolution {
 /// where it says nothing.
 inline PoseSolution solve(const NormalEquations& equations, double min_observability) {
   PoseSolution solution;
-  if (!(equations.sum_weights > 0.0) || !equations.information.allFinite()) {
+  if (!(equations.sum_weights > 0.0) || !detail::all_finite(equations.information)) {
     solution.degenerate_directions = 6;
     return solution;
   }

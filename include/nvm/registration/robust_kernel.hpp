@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "nvm/core/finite.hpp"
 #include "nvm/core/require.hpp"
 
 namespace nvm {
@@ -36,7 +37,7 @@ struct RobustKernel {
 
   /// Throws std::invalid_argument when the scale is not positive.
   void validate() const {
-    require(scale > 0.0 && std::isfinite(scale), "kernel scale", scale, "positive [m]");
+    require(scale > 0.0 && detail::is_finite(scale), "kernel scale", scale, "positive [m]");
   }
 };
 

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "nvm/core/finite.hpp"
 #include "nvm/map/map_options.hpp"
 #include "nvm/map/operations/traversal.hpp"
 #include "nvm/map/storage/lattice.hpp"
@@ -28,8 +29,9 @@ struct BoxRegion {
     const Eigen::Array3d low = voxel.cast<double>().array() * edge;
     return (low + edge >= min.array()).all() && (low <= max.array()).all();
   }
-  Eigen::Vector3d middle() const { return 0.5 * (min + max); }
-  double extent() const { return 0.5 * (max - min).norm(); }
+  bool is_valid() const { return all_numbers(min) && all_numbers(max); }
+  const Eigen::Vector3d& low() const { return min; }
+  const Eigen::Vector3d& high() const { return max; }
 };
 
 /// The points at most `radius` [m] from `center`.
@@ -38,13 +40,14 @@ struct BallRegion {
   double radius;
 
   bool contains(const Eigen::Vector3d& point) const {
-    return radius >= 0.0 && (point - center).squaredNorm() <= radius * radius;
+    return (point - center).squaredNorm() <= radius * radius;
   }
   bool may_touch(const Lattice& lattice, const VoxelIndex& voxel) const {
     return sq_distance_to_voxels(lattice, center, voxel, voxel) <= radius * radius * (1.0 + 1e-9);
   }
-  Eigen::Vector3d middle() const { return center; }
-  double extent() const { return radius; }
+  bool is_valid() const { return all_finite(center) && is_distance(radius); }
+  Eigen::Vector3d low() const { return center.array() - radius; }
+  Eigen::Vector3d high() const { return center.array() + radius; }
 };
 
 /// Keeps of the surface at `head` only the points outside `region`. Head of what is left, or kNone.
@@ -105,16 +108,19 @@ void erase_from_voxel(
   }
 }
 
-/// Looks only at the bricks within the region's extent [m] of its middle, so that erasing a little
-/// costs little.
+/// Looks only at the bricks that the region touches, so that erasing a little costs little.
 template <class Region>
 void erase_region(VoxelStorage& storage, const Lattice& lattice, const Region& region) {
-  const double margin = 1e-9 * (1.0 + region.extent());
+  if (!region.is_valid()) {
+    return;
+  }
+  // Rounding may put a point at the region's border into the brick beside it.
+  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(lattice.meters_per_step());
   for_each_voxel_near(
       storage,
       lattice,
-      region.middle(),
-      region.extent() + margin,
+      region.low() - margin,
+      region.high() + margin,
       [&](std::uint32_t front, const VoxelIndex& index) {
         if (region.may_touch(lattice, index)) {
           erase_from_voxel(storage, lattice, front, region);
@@ -124,6 +130,9 @@ void erase_region(VoxelStorage& storage, const Lattice& lattice, const Region& r
 
 inline void erase_voxels_beyond(
     VoxelStorage& storage, const Lattice& lattice, const Eigen::Vector3d& center, double radius) {
+  if (!all_finite(center) || !is_distance(radius)) {
+    return;
+  }
   const Eigen::Vector3i middle = Eigen::Vector3i::Constant(kStepsPerVoxel / 2);
   for (std::uint32_t brick = 0; brick < storage.brick_high_water(); ++brick) {
     storage.visit_brick(brick, [&](std::uint32_t front, const VoxelIndex& index) {

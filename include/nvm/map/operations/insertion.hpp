@@ -89,36 +89,36 @@ class Insertion {
     const IndexKey key = block.key(i);
     VoxelCache::Entry& cached = cache_[block.cache_slot(i)];
     if (cached.key != key || cached.insertion != number_) {
-      const std::uint32_t found = cached.key == key
-                                      ? cached.head
-                                      : find_or_create(block.voxel(i), look_ahead_.brick_hint(i));
+      const std::uint32_t found = cached.key == key ? cached.head : find_or_create(block, i);
       if (found == kNone) {
-        ++stats_.map_full;
         return;
       }
       storage_.recency().use(chunks_[found].voxel);
       cached = {key, found, number_};
     }
-    const StoredNormal normal = block.normal(i);
-    const std::uint32_t surface = surface_for(cached.head, normal);
-    if (surface == kNone) {
-      ++stats_.map_full;
-      return;
+    const std::uint32_t surface = surface_for(cached.head, block, i);
+    if (surface != kNone) {
+      add_to_surface(surface, block, i);
     }
-    add_to_surface(surface, block.wrapped(i), normal);
   }
 
-  /// Head of the voxel's front surface, or kNone without room for the voxel. `brick_hint` is its
-  /// brick, or any other.
-  std::uint32_t find_or_create(const VoxelIndex& index, std::uint32_t brick_hint) {
+  /// Head of the front surface of the point's voxel; kNone, which is counted, when the map has no
+  /// room for the voxel or for its only point.
+  std::uint32_t find_or_create(const PointBlock& block, std::size_t i) {
+    const VoxelIndex index = block.voxel(i);
     const IndexKey key = index_key(brick_index(index));
-    std::uint32_t brick = storage_.find_brick(key, brick_hint);
+    std::uint32_t brick = storage_.find_brick(key, look_ahead_.brick_hint(i));
     const std::uint32_t found = storage_.head_in(brick, cell_in_brick(index));
     if (found != kNone) {
       return found;
     }
-    while (!has_room_for_voxel(brick)) {
+    if (is_neighbor_too_close(brick, block, i)) {
+      ++stats_.too_close;
+      return kNone;
+    }
+    while (!storage_.has_room_for_voxel(brick)) {
       if (storage_.voxel_count() == 0) {
+        ++stats_.map_full;
         return kNone;
       }
       evict(storage_.recency().oldest());
@@ -128,8 +128,10 @@ class Insertion {
     return storage_.create_voxel(index, brick);
   }
 
-  /// Head of the surface that takes the normal, made when needed; kNone without room for it.
-  std::uint32_t surface_for(std::uint32_t front, const StoredNormal& normal) {
+  /// Head of the surface that takes the point, made when needed; kNone, which is counted, when
+  /// there is no room for the surface or for its only point.
+  std::uint32_t surface_for(std::uint32_t front, const PointBlock& block, std::size_t i) {
+    const StoredNormal normal = block.normal(i);
     if (admission_.takes_any(front, normal)) {
       return front;
     }
@@ -138,7 +140,12 @@ class Insertion {
       return choice.surface;
     }
     const std::uint32_t voxel = chunks_[front].voxel;
+    if (is_neighbor_too_close(storage_.brick_of(voxel), block, i)) {
+      ++stats_.too_close;
+      return kNone;
+    }
     if (!make_room_for_chunk(voxel)) {
+      ++stats_.map_full;
       return kNone;
     }
     const std::uint32_t surface = storage_.create_surface(voxel, chunks_[front].wrapped(0));
@@ -146,7 +153,9 @@ class Insertion {
     return surface;
   }
 
-  void add_to_surface(std::uint32_t head, const WrappedPoint& point, const StoredNormal& normal) {
+  void add_to_surface(std::uint32_t head, const PointBlock& block, std::size_t i) {
+    const WrappedPoint point = block.wrapped(i);
+    const StoredNormal normal = block.normal(i);
     const Room room = admission_.find_room(head, LanePoint(point));
     if (room.admissible != Admissible::kYes) {
       reject(room.admissible);
@@ -155,11 +164,11 @@ class Insertion {
       }
       return;
     }
-    if (options_.space_across_voxels && is_neighbor_too_close(head, point, normal)) {
-      ++stats_.too_close;
+    const int size = chunks_[head].size;
+    if (size > 0 && is_neighbor_too_close(storage_.brick_of(chunks_[head].voxel), block, i)) {
+      ++stats_.too_close;  // (that a new surface's first point is not was known before it was made)
       return;
     }
-    const int size = chunks_[head].size;
     const bool needs_chunk = size > 0 && size % kLanes == 0;
     if (needs_chunk && !make_room_for_chunk(chunks_[head].voxel)) {
       ++stats_.map_full;
@@ -169,41 +178,31 @@ class Insertion {
     ++stats_.stored;
   }
 
-  /// Whether a query at `point`, which goes to the surface at `head`, would find a point too close.
-  bool is_neighbor_too_close(
-      std::uint32_t head, const WrappedPoint& point, const StoredNormal& normal) noexcept {
-    if (normal == StoredNormal{}) {
-      return finds_any(NoGate{}, head, point, normal);
+  /// With space_across_voxels: whether a query at the point, whose voxel lies in `brick` (or
+  /// kNone), would find a point too close.
+  bool is_neighbor_too_close(std::uint32_t brick, const PointBlock& block, std::size_t i) noexcept {
+    if (!options_.space_across_voxels) {
+      return false;
     }
-    gate_.normal = normal;
-    return finds_any(gate_, head, point, normal);
+    gate_.normal = block.normal(i);
+    return gate_.normal == StoredNormal{} ? finds_any(NoGate{}, brick, block, i)
+                                          : finds_any(gate_, brick, block, i);
   }
 
   template <class Gate>
   [[gnu::noinline]] bool finds_any(
-      const Gate& gate,
-      std::uint32_t head,
-      const WrappedPoint& point,
-      const StoredNormal& normal) noexcept {
-    const std::uint32_t voxel = chunks_[head].voxel;
+      const Gate& gate, std::uint32_t brick, const PointBlock& block, std::size_t i) noexcept {
+    const WrappedPoint point = block.wrapped(i);
     const LatticePoint place{
-        storage_.index_of(voxel),
-        {step_in_voxel(point.x), step_in_voxel(point.y), step_in_voxel(point.z)}};
+        block.voxel(i), {step_in_voxel(point.x), step_in_voxel(point.y), step_in_voxel(point.z)}};
     Candidates found(1);
-    NearestQuery<Gate>(storage_, place, gate, false)
-        .collect(storage_.brick_of(voxel), min_sq_steps_, found);
+    NearestQuery<Gate>(storage_, place, gate, false).collect(brick, min_sq_steps_, found);
     if (found.count() > 0 && merger_.is_on()) {
       found.keep_nearest();
       const PointId nearest = found.id(0);
-      merger_.merge(nearest / kLanes, static_cast<int>(nearest % kLanes), point, normal);
+      merger_.merge(nearest / kLanes, static_cast<int>(nearest % kLanes), point, block.normal(i));
     }
     return found.count() > 0;
-  }
-
-  /// Room for a voxel in `brick`, or in a new brick for kNone.
-  bool has_room_for_voxel(std::uint32_t brick) const noexcept {
-    return !storage_.voxels_exhausted() && !storage_.chunks_exhausted() &&
-           (brick != kNone || !storage_.bricks_exhausted());
   }
 
   /// Never evicts `voxel`, which is about to grow.

@@ -5,7 +5,6 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -106,9 +105,9 @@ class PointBlock {
     status_.fill(Status::kOk);
     int inside = 1;
     for (std::size_t i = 0; i < kSize; ++i) {  // the usual case, without a branch per point
-      inside &= static_cast<int>(std::abs(scaled[0][i]) < kMaxVoxelIndex) &
-                static_cast<int>(std::abs(scaled[1][i]) < kMaxVoxelIndex) &
-                static_cast<int>(std::abs(scaled[2][i]) < kMaxVoxelIndex);
+      inside &= static_cast<int>(Lattice::is_inside(scaled[0][i])) &
+                static_cast<int>(Lattice::is_inside(scaled[1][i])) &
+                static_cast<int>(Lattice::is_inside(scaled[2][i]));
     }
     for (std::size_t i = 0; i < kSize && inside == 0; ++i) {
       const Eigen::Vector3d point(scaled[0][i], scaled[1][i], scaled[2][i]);
@@ -124,7 +123,9 @@ class PointBlock {
       const Lane<double>& scaled, Lane<std::int32_t>& voxel, Lane<std::int16_t>& wrapped) noexcept {
     for (std::size_t i = 0; i < kSize; ++i) {
       const std::int32_t floor = floor_to_int(scaled[i]);
-      const auto step = static_cast<std::int32_t>((scaled[i] - floor) * kStepsPerVoxel);
+      // A hair below a border the difference is rounded to a whole voxel.
+      const auto step = std::min(
+          static_cast<std::int32_t>((scaled[i] - floor) * kStepsPerVoxel), kStepsPerVoxel - 1);
       voxel[i] = floor;
       wrapped[i] = wrap(floor, step);
     }

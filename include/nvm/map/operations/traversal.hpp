@@ -4,10 +4,10 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
+#include "nvm/core/finite.hpp"
 #include "nvm/map/map_point.hpp"
 #include "nvm/map/neighbor.hpp"
 #include "nvm/map/storage/lattice.hpp"
@@ -16,21 +16,25 @@
 
 namespace nvm::detail {
 
-/// Like VoxelStorage::for_each_voxel, for the bricks of which a part lies within `radius` [m] of
-/// `center`, and maybe others.
+/// Like VoxelStorage::for_each_voxel, for the bricks of which a part lies between the corners `min`
+/// and `max` [m], neither of which has a NaN, and maybe others.
 template <class Visitor>
 void for_each_voxel_near(
     const VoxelStorage& storage,
     const Lattice& lattice,
-    const Eigen::Vector3d& center,
-    double radius,
+    const Eigen::Vector3d& min,
+    const Eigen::Vector3d& max,
     Visitor&& visit) {
+  constexpr double kEnd = kMaxVoxelIndex / kBrickEdge;  // of the bricks, in both directions
   const double bricks_per_meter = lattice.voxels_per_meter() / kBrickEdge;
-  const Eigen::Array3d low = ((center.array() - radius) * bricks_per_meter).floor();
-  const Eigen::Array3d high = ((center.array() + radius) * bricks_per_meter).floor();
-  const auto bricks = static_cast<double>(storage.brick_count());
-  if (!((high - low + 1.0).prod() < bricks)) {  // cheaper to look at all
+  const Eigen::Array3d low = (min.array() * bricks_per_meter).floor().max(-kEnd);
+  const Eigen::Array3d high = (max.array() * bricks_per_meter).floor().min(kEnd);
+  const Eigen::Array3d counts = (high - low + 1.0).max(0.0);  // none where the map cannot reach
+  if (counts.prod() >= static_cast<double>(storage.brick_count())) {  // cheaper to look at all
     storage.for_each_voxel(visit);
+    return;
+  }
+  if (counts.minCoeff() < 1.0) {
     return;
   }
   const VoxelIndex first = low.cast<std::int32_t>();
@@ -127,7 +131,7 @@ void for_each_within(
     double radius,
     Visitor&& visit) {
   const double sq_radius = radius * radius;
-  if (!center.allFinite() || !(radius >= 0.0)) {
+  if (!all_finite(center) || !is_distance(radius)) {
     return;
   }
   const auto visit_voxel = [&](std::uint32_t front, const VoxelIndex& index) {
@@ -145,7 +149,8 @@ void for_each_within(
       });
     }
   };
-  for_each_voxel_near(storage, lattice, center, radius, visit_voxel);
+  const Eigen::Vector3d reach = Eigen::Vector3d::Constant(radius);
+  for_each_voxel_near(storage, lattice, center - reach, center + reach, visit_voxel);
 }
 
 inline MapStats count_all(const VoxelStorage& storage) {
@@ -157,7 +162,7 @@ inline MapStats count_all(const VoxelStorage& storage) {
     for (std::uint32_t head = front; head != kNone; head = storage.chunk(head).next_surface) {
       ++stats.surfaces;
     }
-    stats.two_sided_voxels += storage.chunk(front).next_surface != kNone ? 1 : 0;
+    stats.two_sided_voxels += storage.chunk(front).next_surface != kNone ? 1U : 0U;
   });
   return stats;
 }

@@ -39,10 +39,11 @@ struct BrickAddress {
 /// without changing their order: one sequential pass.
 class BrickTableShard {
  public:
-  BrickTableShard() : slots_(allocate_zeroed<Slot>(slot_count())) {}
-
   /// The brick at `address`, or kNone.
   std::uint32_t find(const BrickAddress& address) const noexcept {
+    if (slots_ == nullptr) {
+      return kNone;
+    }
     for (std::size_t i = home(address.hash);; i = next(i)) {
       if (slots_[i].key == address.key) {
         return slots_[i].brick;
@@ -55,13 +56,17 @@ class BrickTableShard {
 
   /// Starts to load what find() reads.
   [[gnu::always_inline]] void prefetch(const BrickAddress& address) const noexcept {
-    __builtin_prefetch(&slots_[home(address.hash)]);
+    if (slots_ != nullptr) {
+      __builtin_prefetch(&slots_[home(address.hash)]);
+    }
   }
 
   /// `address` must not be in the table. Throws std::bad_alloc, before anything is changed, when
   /// the table cannot grow.
   void insert(const BrickAddress& address, std::uint32_t brick) {
-    if (2 * (size_ + 1) > slot_count()) {
+    if (slots_ == nullptr) {
+      slots_ = allocate_zeroed<Slot>(slot_count());
+    } else if (2 * (size_ + 1) > slot_count()) {
       grow();
     }
     place({address.key, brick}, address.hash);
@@ -85,7 +90,7 @@ class BrickTableShard {
     --size_;
   }
 
-  std::size_t bytes() const noexcept { return slot_count() * sizeof(Slot); }
+  std::size_t bytes() const noexcept { return slots_ == nullptr ? 0 : slot_count() * sizeof(Slot); }
 
   struct Slot {
     IndexKey key;
@@ -114,7 +119,7 @@ class BrickTableShard {
 
   void grow() {
     const std::size_t old_count = slot_count();
-    RawArray<Slot> old = allocate_zeroed<Slot>(2 * old_count);
+    ZeroedArray<Slot> old = allocate_zeroed<Slot>(2 * old_count);
     std::swap(old, slots_);
     --shift_;
     for (std::size_t i = 0; i < old_count; ++i) {
@@ -126,7 +131,7 @@ class BrickTableShard {
 
   int shift_ = 64 - kFirstBits;
   std::size_t size_ = 0;
-  RawArray<Slot> slots_;
+  ZeroedArray<Slot> slots_;  // null until the first insertion
 };
 
 /// Finds bricks by their address. In shards that grow one by one, each at its own time, because

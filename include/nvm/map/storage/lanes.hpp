@@ -34,10 +34,10 @@ using WrappedPairs = std::uint16_t __attribute__((vector_size(4 * kLanes)));
 struct LanePoint {
   explicit LanePoint(const WrappedPoint& point)
       : z(WrappedLanes{} + static_cast<std::uint16_t>(point.z)) {
-    const std::uint32_t pair =
-        (static_cast<std::uint32_t>(static_cast<std::uint16_t>(point.y)) << 16) |
-        static_cast<std::uint16_t>(point.x);
-    const IntLanes pairs = IntLanes{} + static_cast<std::int32_t>(pair);
+    const std::int16_t both[2] = {point.x, point.y};  // in memory as in a chunk
+    std::int32_t pair;
+    std::memcpy(&pair, both, sizeof(pair));
+    const IntLanes pairs = IntLanes{} + pair;
     std::memcpy(&xy, &pairs, sizeof(xy));
   }
   WrappedPairs xy;
@@ -137,7 +137,7 @@ inline constexpr auto kSetBits = [] {
   __m256i v;
   std::memcpy(&v, &values, sizeof(v));
   const __m256i order =
-      _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(static_cast<std::int64_t>(kSetBits[mask])));
+      _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(&kSetBits[mask])));
   v = _mm256_permutevar8x32_epi32(v, order);
   std::memcpy(out, &v, sizeof(v));
 #else

@@ -4,8 +4,9 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
+
+#include "nvm/core/finite.hpp"
 
 namespace nvm::detail {
 
@@ -58,13 +59,13 @@ class Lattice {
 
   /// Whether the lattice holds a position given in voxels.
   static LatticeStatus judge(const Eigen::Vector3d& scaled) noexcept {
-    // Written so that NaN fails the first test.
-    if (std::abs(scaled.x()) < kMaxVoxelIndex && std::abs(scaled.y()) < kMaxVoxelIndex &&
-        std::abs(scaled.z()) < kMaxVoxelIndex) {
+    if (is_inside(scaled.x()) && is_inside(scaled.y()) && is_inside(scaled.z())) {
       return LatticeStatus::kInside;
     }
-    return scaled.allFinite() ? LatticeStatus::kOutOfRange : LatticeStatus::kNonFinite;
+    return all_finite(scaled) ? LatticeStatus::kOutOfRange : LatticeStatus::kNonFinite;
   }
+  /// The same for one coordinate. False for NaN.
+  static bool is_inside(double scaled) noexcept { return magnitude(scaled) < kEndOfLattice; }
 
   /// The lattice point of `position` [m]; `out` is written only when the result is kInside.
   LatticeStatus locate(const Eigen::Vector3d& position, LatticePoint& out) const noexcept {
@@ -105,6 +106,8 @@ class Lattice {
   }
 
  private:
+  static constexpr std::uint64_t kEndOfLattice = 0x4130000000000000U;  // magnitude(kMaxVoxelIndex)
+
   double voxels_per_meter_;
   double meters_per_step_;
   double steps_per_meter_;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <limits>
 #include <memory>
 #include <new>
 #include <type_traits>
@@ -17,37 +18,45 @@ namespace nvm::detail {
 /// "No element", "no chunk", "no voxel".
 inline constexpr std::uint32_t kNone = 0xffffffffU;
 
+inline constexpr std::size_t kArrayAlignment = 64;
+
+struct ArrayDeleter {
+  void operator()(void* memory) const noexcept {
+    ::operator delete (memory, std::align_val_t{kArrayAlignment});
+  }
+};
+/// An array whose elements are not constructed.
+template <class T>
+using RawArray = std::unique_ptr<T[], ArrayDeleter>;
+
 struct FreeDeleter {
   void operator()(void* memory) const noexcept { std::free(memory); }
 };
-
 template <class T>
-using RawArray = std::unique_ptr<T[], FreeDeleter>;
+using ZeroedArray = std::unique_ptr<T[], FreeDeleter>;
 
 /// Room for `count` elements that are neither constructed nor touched: the operating system commits
 /// a page when it is first written, so a map costs what it holds, not what it may hold. Throws
 /// std::bad_alloc.
 template <class T>
 RawArray<T> allocate_uninitialized(std::size_t count) {
-  static_assert(std::is_trivially_destructible_v<T>);
-  constexpr std::size_t kAlignment = alignof(T) < 64 ? 64 : alignof(T);
-  const std::size_t bytes = (count * sizeof(T) + kAlignment - 1) / kAlignment * kAlignment;
-  void* memory = std::aligned_alloc(kAlignment, bytes);
-  if (memory == nullptr) {
+  static_assert(std::is_trivially_destructible_v<T> && alignof(T) <= kArrayAlignment);
+  if (count > std::numeric_limits<std::size_t>::max() / sizeof(T)) {
     throw std::bad_alloc();
   }
+  void* memory = ::operator new (count * sizeof(T), std::align_val_t{kArrayAlignment});
   return RawArray<T>(static_cast<T*>(memory));
 }
 
 /// `count` elements of all-zero bytes, committed when first written. Throws std::bad_alloc.
 template <class T>
-RawArray<T> allocate_zeroed(std::size_t count) {
+ZeroedArray<T> allocate_zeroed(std::size_t count) {
   static_assert(std::is_trivially_copyable_v<T>);
   void* memory = std::calloc(count, sizeof(T));
   if (memory == nullptr) {
     throw std::bad_alloc();
   }
-  return RawArray<T>(static_cast<T*>(memory));
+  return ZeroedArray<T>(static_cast<T*>(memory));
 }
 
 /// Hands out and takes back the indices 0 to capacity - 1, the most recently returned first, so
@@ -55,6 +64,7 @@ RawArray<T> allocate_zeroed(std::size_t count) {
 /// inside each free element.
 class IndexAllocator {
  public:
+  IndexAllocator() = default;
   explicit IndexAllocator(std::size_t capacity) : capacity_(static_cast<std::uint32_t>(capacity)) {}
 
   /// A free index, or kNone when all are taken. `link(i)` is the free-list field of element i.
@@ -94,7 +104,7 @@ class IndexAllocator {
   std::uint32_t taken() const noexcept { return taken_; }
 
  private:
-  std::uint32_t capacity_;
+  std::uint32_t capacity_ = 0;
   std::uint32_t used_ = 0;
   std::uint32_t taken_ = 0;
   std::uint32_t free_ = kNone;

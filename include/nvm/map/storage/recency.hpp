@@ -27,6 +27,7 @@ namespace nvm::detail {
 /// between.
 class Recency {
  public:
+  Recency() = default;
   explicit Recency(std::size_t capacity)
       : nodes_(allocate_uninitialized<Node>(capacity)),
         ring_mask_(static_cast<std::uint32_t>(ring_size(capacity) - 1)),
@@ -92,7 +93,10 @@ class Recency {
     }
   }
 
-  /// Where a voxel stands, with the epochs counted without gaps from 1.
+  /// The epoch of a use now.
+  std::uint32_t epoch() const noexcept { return epoch_; }
+
+  /// Where a voxel stands, and when it was last used.
   struct Standing {
     std::uint32_t id;
     std::uint32_t listed;
@@ -102,23 +106,11 @@ class Recency {
   /// All voxels, from the oldest list to the newest, each list in order.
   std::vector<Standing> standings() const {
     std::vector<Standing> standings;
-    std::vector<std::uint32_t> epochs;
     standings.reserve(count_);
     for (std::uint32_t epoch = oldest_; count_ > 0 && epoch <= epoch_; ++epoch) {
       for (std::uint32_t id = list(epoch).first(); id != kNone; id = nodes_[id].next) {
         standings.push_back({id, epoch, stamp(id)});
-        epochs.insert(epochs.end(), {epoch, stamp(id)});
       }
-    }
-    std::sort(epochs.begin(), epochs.end());
-    epochs.erase(std::unique(epochs.begin(), epochs.end()), epochs.end());
-    const auto rank = [&](std::uint32_t epoch) {
-      const auto place = std::lower_bound(epochs.begin(), epochs.end(), epoch) - epochs.begin();
-      return kFirstEpoch + static_cast<std::uint32_t>(place);
-    };
-    for (Standing& standing : standings) {
-      standing.listed = rank(standing.listed);
-      standing.stamp = rank(standing.stamp);
     }
     return standings;
   }
@@ -126,13 +118,27 @@ class Recency {
   /// Adds a voxel as standings() gave it, in the same order, to an empty order or one that only
   /// this has filled. False, and nothing is added, when it cannot have come from there.
   bool restore(const Standing& standing) noexcept {
+    const std::uint32_t oldest = count_ == 0 ? standing.listed : std::min(oldest_, standing.listed);
+    const std::uint32_t newest = count_ == 0 ? standing.stamp : std::max(epoch_, standing.stamp);
     const bool possible = standing.listed >= kFirstEpoch && standing.listed <= standing.stamp &&
-                          standing.stamp < ring_mask_;
+                          newest <= kLastEpoch && newest - oldest <= ring_mask_;
     if (possible) {
       new (&nodes_[standing.id]) Node{standing.stamp, standing.listed, kNone, kNone};
       append(standing.id);
-      epoch_ = std::max(epoch_, standing.stamp);
+      oldest_ = oldest;
+      epoch_ = newest;
       ++count_;
+    }
+    return possible;
+  }
+  /// After the last voxel: what epoch() was. False, and nothing changes, when that is impossible.
+  bool restore_epoch(std::uint32_t epoch) noexcept {
+    const std::uint32_t oldest = count_ == 0 ? epoch : oldest_;
+    const bool possible = epoch >= kFirstEpoch && epoch <= kLastEpoch &&
+                          (count_ == 0 || epoch >= epoch_) && epoch - oldest <= ring_mask_;
+    if (possible) {
+      oldest_ = oldest;
+      epoch_ = epoch;
     }
     return possible;
   }
@@ -269,8 +275,8 @@ class Recency {
   }
 
   RawArray<Node> nodes_;
-  std::uint32_t ring_mask_;
-  RawArray<List> ring_;
+  std::uint32_t ring_mask_ = 0;
+  ZeroedArray<List> ring_;
   std::uint32_t oldest_ = kFirstEpoch;  // no voxel stands in an older list
   std::uint32_t epoch_ = kFirstEpoch;
   std::uint32_t count_ = 0;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 
 namespace nvm::detail {
 
@@ -23,8 +24,15 @@ inline bool operator==(const StoredNormal& a, const StoredNormal& b) {
 
 inline constexpr int kNormalScale = 127;
 
-/// True when a vector of this squared length is a unit vector, within 1 %; false for NaN.
-inline bool is_unit_length(float sq_length) { return std::abs(sq_length - 1.0F) < 0.02F; }
+/// True when a vector of this squared length is a unit vector, within 1 %; false for NaN. Numbers
+/// of one sign are ordered as their bits are: see nvm/core/finite.hpp.
+inline bool is_unit_length(float sq_length) {
+  constexpr std::uint32_t kShortest = 0x3f7ae148U;  // 0.98
+  constexpr std::uint32_t kLongest = 0x3f828f5cU;   // 1.02
+  std::uint32_t bits;
+  std::memcpy(&bits, &sq_length, sizeof(bits));
+  return bits - kShortest <= kLongest - kShortest;
+}
 inline bool is_unit(const Eigen::Vector3f& normal) { return is_unit_length(normal.squaredNorm()); }
 
 /// A component of a unit vector, rounded. (Adding 128 first turns truncation into rounding for

@@ -25,6 +25,7 @@ class SurfaceStorage {
   }
 
  public:
+  SurfaceStorage() = default;
   explicit SurfaceStorage(const MapCapacity& capacity)
       : bytes_per_chunk_(capacity.bytes_per_chunk()),
         chunk_ids_(capacity.chunks),
@@ -38,6 +39,7 @@ class SurfaceStorage {
   const NormalChunk* normals() const noexcept { return normals_.get(); }
   const PointChunk& chunk(std::uint32_t id) const noexcept { return chunks_[id]; }
   const NormalChunk& normals(std::uint32_t chunk) const noexcept { return normals_[chunk]; }
+  bool counts_merged() const noexcept { return merged_ != nullptr; }
   /// How many points the one in `lane` stands for. Only with MapCapacity::counts_merged.
   int merged_points(std::uint32_t chunk, int lane) const noexcept { return merged_[chunk][lane]; }
   /// True when no point of a chunk stands for fewer than `count`. Only with counts_merged.
@@ -104,6 +106,11 @@ class SurfaceStorage {
   void replace(std::uint32_t chunk, int lane, const WrappedPoint& point) noexcept {
     chunks_[chunk].set_position(lane, point);
     ++merged_[chunk][lane];
+  }
+
+  /// For a point read from a file. Only with MapCapacity::counts_merged.
+  void restore_merged_points(std::uint32_t chunk, int lane, int count) noexcept {
+    merged_[chunk][lane] = static_cast<std::uint8_t>(count);
   }
 
   /// Returns all chunks of a surface. Whatever links to it must be changed by the caller.
@@ -199,14 +206,14 @@ class SurfaceStorage {
   void for_each_normals(const PointChunk& head, Visitor&& visit) const noexcept {
     int left = head.size;
     for (const PointChunk* chunk = &head; left > 0; chunk = &chunks_[chunk->next], left -= kLanes) {
-      visit(normals_[chunk - chunks_.get()], std::min(left, kLanes));
+      visit(normals_[static_cast<std::size_t>(chunk - chunks_.get())], std::min(left, kLanes));
     }
   }
 
   using MergedCounts = std::uint8_t[kLanes];
   static constexpr std::uint8_t kNothingToMerge = 255;  // of a lane without a point
 
-  std::size_t bytes_per_chunk_;
+  std::size_t bytes_per_chunk_ = 0;
   IndexAllocator chunk_ids_;
   RawArray<PointChunk> chunks_;
   RawArray<NormalChunk> normals_;

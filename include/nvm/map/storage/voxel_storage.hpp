@@ -29,6 +29,8 @@ class VoxelStorage : public SurfaceStorage {
   }
 
  public:
+  /// Empty, with room for nothing and no memory.
+  VoxelStorage() = default;
   explicit VoxelStorage(const MapCapacity& capacity)
       : SurfaceStorage(capacity),
         voxel_ids_(capacity.voxels),
@@ -51,6 +53,7 @@ class VoxelStorage : public SurfaceStorage {
   std::uint32_t find_brick(IndexKey key, std::uint32_t hint) const noexcept {
     return is_brick(hint, key) ? hint : find_brick(key);
   }
+  bool has_memory() const noexcept { return bricks_ != nullptr; }
   const Brick* bricks() const noexcept { return bricks_.get(); }
   /// Starts to load the whole of a brick (or none).
   [[gnu::always_inline]] void prefetch_brick(std::uint32_t id) const noexcept {
@@ -155,8 +158,11 @@ class VoxelStorage : public SurfaceStorage {
   bool has_room_for(std::size_t points) const noexcept {
     return voxel_ids_.left() >= points && brick_ids_.left() >= points && chunks_left() >= points;
   }
-  bool voxels_exhausted() const noexcept { return voxel_ids_.exhausted(); }
-  bool bricks_exhausted() const noexcept { return brick_ids_.exhausted(); }
+  /// Room for a voxel in `brick`, or in a new brick for kNone.
+  bool has_room_for_voxel(std::uint32_t brick) const noexcept {
+    return !voxel_ids_.exhausted() && !chunks_exhausted() &&
+           (brick != kNone || !brick_ids_.exhausted());
+  }
 
   /// Makes the voxel `index`, used now, with an empty front surface, and returns its head. There
   /// must be no such voxel, and room for a voxel, a chunk and, unless it exists, `brick`: the brick
