@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "adapters/host_shapes/host_run.hpp"
+#include "io/temporary_folder.hpp"
+#include "sim/scene_file.hpp"
+#include "sim/simulation.hpp"
+
+namespace nvm::test {
+namespace {
+
+/// Writes a walk around a partition of 5 cm, with an IMU twice as noisy as the simulator's.
+void simulate_partition(const std::string& sensor, const std::string& folder) {
+  sim::SimulationOptions options = sim::options_for(sensor);
+  options.imu.gyro.noise_density *= 2.0;
+  options.imu.accelerometer.noise_density *= 2.0;
+  sim::simulate(
+      sim::load_scene(NVM_SOURCE_DIR "/tests/adapters/host_shapes/partition.yaml"),
+      options,
+      folder);
+}
+
+/// Never worse than the host's own map, neither in poses nor in walls, and not many times as large.
+void expect_no_loss(const HostRun& own, const HostRun& nvm) {
+  constexpr double kShare = 1.05, kMargin_mm = 0.3;
+  EXPECT_LE(nvm.ate_mm, kShare * own.ate_mm + kMargin_mm);
+  EXPECT_EQ(nvm.walls, own.walls);
+  EXPECT_LE(nvm.wall_mm, kShare * own.wall_mm + kMargin_mm);
+  EXPECT_LT(nvm.map_points, 5 * own.map_points);
+}
+
+class HostShapes : public TemporaryFolder, public testing::WithParamInterface<const char*> {};
+
+TEST_P(HostShapes, LoseNothingByPatchB) {
+  const std::string sequence = path("sequence");
+  simulate_partition(GetParam(), sequence);
+  for (const HostFamily family :
+       {HostFamily::kFastLio, HostFamily::kFasterLio, HostFamily::kCtLio}) {
+    const HostShape shape = shape_of(family);
+    const HostRun own = run_host(sequence, shape, HostMapKind::kOwn);
+    const HostRun nvm = run_host(sequence, shape, HostMapKind::kPatchB);
+    SCOPED_TRACE(std::string(name(family)) + ", own: " + describe(own) + "; nvm: " + describe(nvm));
+    EXPECT_LT(own.ate_mm, 100.0) << "the host-shaped odometry itself has failed";
+    expect_no_loss(own, nvm);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Sensors, HostShapes, testing::Values("mid360", "vlp16"), [](const auto& sensor) {
+      return std::string(sensor.param);
+    });
+
+}  // namespace
+}  // namespace nvm::test
