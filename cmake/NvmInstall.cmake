@@ -101,7 +101,7 @@ set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libeigen3-dev (>= 3.3), libnanoflann-dev (>= 1.4)")
 # What the compiled components are linked with; the core needs none of it.
 set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS
-    "libassimp-dev, libembree-dev, libfmt-dev, librosbag-storage-dev, libtbb-dev, libyaml-cpp-dev, nlohmann-json3-dev")
+    "libassimp-dev, libbz2-dev, libembree-dev, libfmt-dev, liblz4-dev, librosbag-storage-dev, libtbb-dev, libyaml-cpp-dev, nlohmann-json3-dev")
 set(CPACK_DEBIAN_TOOLS_PACKAGE_NAME nvm-tools)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SHLIBDEPS ON)

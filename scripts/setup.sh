@@ -13,7 +13,7 @@ packages=(
   libeigen3-dev libnanoflann-dev
   # the compiled components and the nvm program
   libassimp-dev libcli11-dev libembree-dev libfmt-dev libtbb-dev
-  libyaml-cpp-dev nlohmann-json3-dev librosbag-storage-dev libsensor-msgs-dev
+  libyaml-cpp-dev nlohmann-json3-dev libbz2-dev liblz4-dev librosbag-storage-dev libsensor-msgs-dev
   zlib1g-dev # asked for by the CMake package of assimp, but not by its Debian package
   # tests and benchmarks
   libbenchmark-dev libgmock-dev libgtest-dev robin-map-dev

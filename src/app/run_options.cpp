@@ -54,6 +54,8 @@ void bind_input(config::Schema& schema, RunOptions& options) {
        {"header", io::ClockChoice::kHeader},
        {"record", io::ClockChoice::kRecord}},
       "Of a bag's messages: the times in their headers or those of recording");
+  schema.add(
+      "bin_fields", input.bin_fields, {0.0, 6.0}, "Numbers a point in .bin files; 0: as they look");
   schema.add("scan_rate", input.scan_rate, {0.01, 1000.0}, "Of files without any time [Hz]");
   schema.add(
       "T_imu_lidar", options.T_imu_lidar, "x y z [m] qx qy qz qw; empty: as the sequence tells");
@@ -90,6 +92,12 @@ std::optional<RunOptions> read_run_options(const RunOptionArguments& arguments) 
 Pose lidar_extrinsic(const RunOptions& options, const io::SequenceInfo& info) {
   const std::vector<double>& numbers = options.T_imu_lidar;
   if (numbers.empty()) {
+    if (info.has_imu && !info.has_T_imu_lidar) {
+      fmt::print(
+          stderr,
+          "nvm: note: the sequence does not tell T_imu_lidar: the identity is assumed; "
+          "input.T_imu_lidar sets it\n");
+    }
     return info.T_imu_lidar;
   }
   constexpr double kMaxLengthError = 0.01;

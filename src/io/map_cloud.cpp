@@ -111,7 +111,13 @@ MapCloud map_cloud_from(const PointRecords& records) {
   return cloud;
 }
 
-MapCloud read_map_cloud(const std::string& path) { return map_cloud_from(read_points(path)); }
+MapCloud read_map_cloud(const std::string& path) {
+  const PointRecords records = read_points(path);
+  if (records.missing > 0) {
+    fail(path, "is truncated: " + std::to_string(records.missing) + " points are missing");
+  }
+  return map_cloud_from(records);
+}
 
 void write_map_cloud(const std::string& path, const MapCloud& cloud) {
   check_lengths(cloud);

@@ -162,8 +162,7 @@ class NvmSequence : public SequenceReader {
   void apply(const NvmSequenceMeta& meta, const std::string& path) {
     if (meta.T_imu_lidar) {
       info_.T_imu_lidar = *meta.T_imu_lidar;
-    } else {
-      info_.notes.emplace_back("meta.json has no T_imu_lidar: the identity is assumed");
+      info_.has_T_imu_lidar = true;
     }
     const std::size_t points = point_count(scans_);
     if (meta.scans.value_or(scans_.size()) == scans_.size() &&

@@ -74,7 +74,7 @@ class HeaderParser {
   };
 
   void take(const Entry& entry) {
-    if (entry.key == "FIELDS") {
+    if (entry.key == "FIELDS" || entry.key == "COLUMNS") {  // the latter before version 0.6
       header_.names.assign(entry.values.begin(), entry.values.end());
     } else if (entry.key == "SIZE") {
       header_.sizes = numbers(entry);
@@ -152,11 +152,14 @@ PointRecords records_of(const std::string& path, const Header& header) {
   records.size = point_count(path, header);
   for (std::size_t i = 0; i < fields; ++i) {
     const std::size_t count = header.counts.empty() ? 1 : header.counts[i];
-    if (count == 0 || count > kMaxFieldCount) {
+    if (count > kMaxFieldCount) {
       fail(
           path,
-          "COUNT " + std::to_string(count) + " of field " + quote(header.names[i]) +
-              " is not from 1 to " + std::to_string(kMaxFieldCount));
+          "COUNT " + std::to_string(count) + " of field " + quote(header.names[i]) + " is above " +
+              std::to_string(kMaxFieldCount));
+    }
+    if (count == 0) {  // a field without bytes
+      continue;
     }
     records.add_field(header.names[i], scalar_type(path, header.types[i], header.sizes[i]), count);
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 #include "config/value.hpp"
 #include "io/file.hpp"
@@ -52,6 +53,33 @@ bool append_text_record(const std::vector<std::string_view>& words, PointRecords
   return at == words.size();
 }
 
+/// Makes float64 of the fields of whole numbers that are not whole in `words`, and begins again
+/// without records; false, and no change, when there are none.
+bool widen_whole_numbers(const std::vector<std::string_view>& words, PointRecords& records) {
+  PointRecords wider;
+  bool has_changed = false;
+  std::size_t at = 0;
+  for (const Field& field : records.fields) {
+    ScalarType type = field.type;
+    for (std::size_t i = 0; i < field.count && at < words.size(); ++i) {
+      std::string ignored;
+      const std::string_view word = words[at++];
+      if (is_integer(field.type) && !append_parsed(word, field.type, ignored) &&
+          config::parse_number(word)) {
+        type = ScalarType::kFloat64;
+        has_changed = true;
+      }
+    }
+    wider.add_field(field.name, type, field.count);
+  }
+  if (has_changed) {
+    records.fields = std::move(wider.fields);
+    records.record_size = wider.record_size;
+    records.bytes.clear();
+  }
+  return has_changed;
+}
+
 }  // namespace
 
 std::size_t size_of(ScalarType type) {
@@ -79,22 +107,24 @@ const Field* PointRecords::find(std::initializer_list<std::string_view> names) c
 }
 
 void append_text_records(std::string_view text, PointRecords& records) {
+  const std::string_view whole = text;
   std::size_t point = 0;
-  while (point < records.size) {
-    if (text.empty()) {
-      fail(
-          records.source,
-          "is truncated: " + std::to_string(point) + " of " + std::to_string(records.size) +
-              " points are there");
-    }
+  while (point < records.size && !text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size() - 1);
     const auto words = split(text.substr(0, end + 1));
     text.remove_prefix(end + 1);
     if (!words.empty() && !append_text_record(words, records)) {
+      if (widen_whole_numbers(words, records)) {
+        return append_text_records(whole, records);
+      }
+      if (text.empty() && point > 0) {
+        break;  // cut off within a line
+      }
       fail(records.source, "point " + std::to_string(point) + " is not one number per field");
     }
     point += words.empty() ? 0 : 1;
   }
+  records.bytes.resize(point * records.record_size);
 }
 
 PointRecords checked(PointRecords records) {
@@ -108,18 +138,21 @@ PointRecords checked(PointRecords records) {
               std::to_string(record_size) + " bytes");
     }
   }
-  if (records.size > 0 && (record_size == 0 || records.size > records.bytes.size() / record_size)) {
+  const std::size_t there = record_size == 0 ? 0 : records.bytes.size() / record_size;
+  if (records.size > 0 && there == 0) {
     fail(
         records.source,
         "is truncated: " + std::to_string(records.size) + " points of " +
             std::to_string(record_size) + " bytes are announced, " +
             std::to_string(records.bytes.size()) + " bytes are there");
   }
+  records.missing = records.size - std::min(records.size, there);
+  records.size -= records.missing;
   records.bytes.resize(records.size * record_size);
   return records;
 }
 
-PointRecords read_points(const std::string& path) {
+PointRecords read_points(const std::string& path, std::size_t bin_fields) {
   const std::string extension = extension_of(path);
   if (extension == ".pcd") {
     return read_pcd(path);
@@ -128,7 +161,7 @@ PointRecords read_points(const std::string& path) {
     return read_ply(path);
   }
   if (extension == ".bin") {
-    return read_kitti_points(path);
+    return read_kitti_points(path, bin_fields);
   }
   fail(path, "is not a .pcd, .ply or .bin file");
 }

@@ -74,6 +74,7 @@ struct PointRecords {
   std::size_t size = 0;         ///< number of points
   std::string bytes;            ///< size * record_size
   bool is_big_endian = false;
+  std::size_t missing = 0;  ///< points that the header announces behind the end of the file
 
   /// Appends a field to the record.
   void add_field(const std::string& name, ScalarType type, std::size_t count = 1);
@@ -89,11 +90,14 @@ void append_bytes(T value, std::string& bytes) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof(T));
 }
 
-/// Appends `records.size` records written as lines of numbers. Throws std::runtime_error.
+/// Appends up to `records.size` records written as lines of numbers; those that are not there count
+/// as missing. Fields of whole numbers become float64 where one is not whole. Throws
+/// std::runtime_error.
 void append_text_records(std::string_view text, PointRecords& records);
 
-/// `records` without bytes behind the last record. Throws std::runtime_error unless all fields lie
-/// in the record and all records in `bytes`.
+/// `records` without bytes behind the last record, and without records behind the last byte, which
+/// count as missing. Throws std::runtime_error unless all fields lie in the record, and when no
+/// record is there although some are announced.
 PointRecords checked(PointRecords records);
 
 /// Calls `visitor(index, value)` with the first value of `field` in each record, as a double.
@@ -114,7 +118,9 @@ void for_each_value(const PointRecords& records, const Field& field, const Visit
   });
 }
 
-/// Reads a scan or map file by its extension: .pcd, .ply, .bin. Throws std::runtime_error.
-PointRecords read_points(const std::string& path);
+/// Reads a scan or map file by its extension: .pcd, .ply, .bin (of `bin_fields` numbers a point,
+/// see read_kitti_points). One that is cut off is read as far as it goes. Throws
+/// std::runtime_error.
+PointRecords read_points(const std::string& path, std::size_t bin_fields = 0);
 
 }  // namespace nvm::io

@@ -3,9 +3,6 @@
 #include "io/ros_bag_reader.hpp"
 
 #include <fmt/format.h>
-#include <rosbag/bag.h>
-#include <rosbag/query.h>
-#include <rosbag/view.h>
 
 #include <algorithm>
 #include <deque>
@@ -17,7 +14,7 @@
 #include "io/imu_file.hpp"
 #include "io/imu_gap_monitor.hpp"
 #include "io/left_out.hpp"
-#include "io/ros_bag_check.hpp"
+#include "io/ros_bags.hpp"
 #include "io/ros_messages.hpp"
 #include "io/scan_converter.hpp"
 
@@ -33,37 +30,6 @@ constexpr char kLivox2Type[] = "livox_ros_driver2/CustomMsg";
 bool is_livox(const std::string& type) { return type == kLivoxType || type == kLivox2Type; }
 bool is_cloud(const std::string& type) { return type == kCloudType || is_livox(type); }
 bool is_imu(const std::string& type) { return type == kImuType; }
-
-/// A message as it is serialised.
-std::string bytes_of(const rosbag::MessageInstance& message) {
-  constexpr std::uint32_t kMaxSize = 1U << 28;  // rosbag believes any size that a damaged file says
-  if (message.size() > kMaxSize) {
-    throw std::runtime_error("is corrupt: a message says that it has more than 256 MiB");
-  }
-  std::string bytes(message.size(), '\0');
-  ros::serialization::OStream stream(
-      reinterpret_cast<std::uint8_t*>(bytes.data()), static_cast<std::uint32_t>(bytes.size()));
-  message.write(stream);
-  return bytes;
-}
-
-/// The topics of the bag with messages of an accepted type, in order of appearance.
-std::vector<std::string> topics_of(const rosbag::Bag& bag, bool (*accepts)(const std::string&)) {
-  std::vector<std::pair<std::uint32_t, std::string>> found;
-  for (const rosbag::ConnectionInfo* connection : rosbag::View(bag).getConnections()) {
-    const auto is_same = [&](const auto& entry) { return entry.second == connection->topic; };
-    if (accepts(connection->datatype) && std::none_of(found.begin(), found.end(), is_same)) {
-      found.emplace_back(connection->id, connection->topic);
-    }
-  }
-  std::sort(found.begin(), found.end());
-  std::vector<std::string> topics;
-  topics.reserve(found.size());
-  for (auto& [id, topic] : found) {
-    topics.push_back(std::move(topic));
-  }
-  return topics;
-}
 
 /// The factor that makes m/s^2 of accelerations of such lengths.
 double accel_scale(std::vector<double> norms, AccelUnit unit) {
@@ -87,13 +53,15 @@ PointTimeOptions point_time_options(const SequenceOptions& options) {
 
 class RosBag : public SequenceReader {
  public:
-  RosBag(std::string path, const SequenceOptions& options) : path_(std::move(path)) {
-    check_ros_bag(path_);
+  RosBag(const std::vector<std::string>& paths, const SequenceOptions& options)
+      : path_(paths.front()), bags_(paths) {
     try {
-      bag_.open(path_, rosbag::bagmode::Read);
       open(options);
-    } catch (const std::exception& error) {
+    } catch (const std::runtime_error& error) {
       fail(path_, error.what());
+    }
+    if (paths.size() > 1) {
+      info_.format += fmt::format(" in {} files", paths.size());
     }
   }
 
@@ -141,25 +109,45 @@ class RosBag : public SequenceReader {
 
  private:
   void open(const SequenceOptions& options) {
-    const std::string lidar = choose_topic("lidar", topics_of(bag_, is_cloud), options.lidar_topic);
-    const std::string imu = choose_topic("IMU", topics_of(bag_, is_imu), options.imu_topic);
+    info_.notes = bags_.problems();
+    const std::string lidar = choose_topic("lidar", bags_.topics(is_cloud), options.lidar_topic);
+    const std::string imu = choose_topic("IMU", bags_.topics(is_imu), options.imu_topic);
     if (lidar.empty()) {
-      throw std::runtime_error("has no topic with PointCloud2 or CustomMsg messages");
+      refuse_without_clouds();
     }
+    messages_ = bags_.messages(lidar, is_cloud);
+    std::vector<BagMessage> imu_messages = bags_.messages(imu, is_imu);
     info_.format = "ROS 1 bag";
-    info_.scan_count = rosbag::View(bag_, rosbag::TopicQuery(lidar)).size();
-    info_.has_imu = !imu.empty();
-    std::vector<CloudMessage> clouds = first_clouds(lidar);
+    info_.scan_count = messages_.size();
+    info_.has_imu = !imu_messages.empty();
+    sort_by_time(messages_);
+    sort_by_time(imu_messages);
+    const std::vector<CloudMessage> clouds = first_clouds(lidar);
     std::vector<MessageTime> cloud_times;
     for (const CloudMessage& cloud : clouds) {
       cloud_times.push_back({cloud.stamp, cloud.record_time});
     }
-    clocks_ = choose_clocks(cloud_times, inspect_imu(imu, options.accel_unit), options.clock);
+    clocks_ =
+        choose_clocks(cloud_times, inspect_imu(imu_messages, options.accel_unit), options.clock);
     info_.notes.insert(info_.notes.end(), clocks_.notes.begin(), clocks_.notes.end());
-    learn(std::move(clouds), options);
-    view_.addQuery(bag_, rosbag::TopicQuery(std::vector<std::string>{lidar, imu}));
-    next_ = view_.begin();
+    learn(clouds, options);
+    messages_.insert(messages_.end(), imu_messages.begin(), imu_messages.end());
+    sort_by_time(messages_);
     fixed_notes_ = info_.notes.size();
+  }
+
+  [[noreturn]] void refuse_without_clouds() const {
+    const auto topics = bags_.all_topics();
+    std::string problem = fmt::format(
+        "has no topic with PointCloud2 or CustomMsg messages; there are: {}",
+        topics.empty() ? "no topics at all" : fmt::format("{}", fmt::join(topics, ", ")));
+    if (problem.find("acket") != std::string::npos) {
+      problem += "; make clouds of packets with the sensor's driver, and record those";
+    }
+    for (const std::string& note : info_.notes) {
+      problem += "; " + note;
+    }
+    throw std::runtime_error(problem);
   }
 
   /// The wanted topic, or the first one; empty when there is none.
@@ -177,15 +165,21 @@ class RosBag : public SequenceReader {
     return !wanted.empty() || topics.empty() ? wanted : topics.front();
   }
 
-  std::vector<MessageTime> inspect_imu(const std::string& topic, AccelUnit unit) {
+  std::vector<MessageTime> inspect_imu(const std::vector<BagMessage>& messages, AccelUnit unit) {
     constexpr std::size_t kCount = 100;
     std::vector<double> norms;
     std::vector<MessageTime> times;
-    rosbag::View view(bag_, rosbag::TopicQuery(topic));
-    for (auto it = view.begin(); it != view.end() && times.size() < kCount; ++it) {
-      const lio::ImuSample sample = read_imu(bytes_of(*it));
-      norms.push_back(sample.accel.norm());
-      times.push_back({sample.time, it->getTime().toSec()});
+    for (const BagMessage& message : messages) {
+      if (times.size() == kCount) {
+        break;
+      }
+      try {
+        const lio::ImuSample sample = read_imu(bags_.bytes(message));
+        norms.push_back(sample.accel.norm());
+        times.push_back({sample.time, message.entry.time});
+      } catch (const std::runtime_error&) {
+        continue;  // advance() counts it
+      }
     }
     accel_scale_ = accel_scale(std::move(norms), unit);
     if (accel_scale_ != 1.0) {
@@ -198,15 +192,17 @@ class RosBag : public SequenceReader {
   std::vector<CloudMessage> first_clouds(const std::string& topic) {
     constexpr std::size_t kCount = 20;
     std::vector<CloudMessage> clouds;
-    rosbag::View view(bag_, rosbag::TopicQuery(topic));
-    for (auto it = view.begin(); it != view.end() && clouds.size() < kCount; ++it) {
+    for (const BagMessage& message : messages_) {
+      if (clouds.size() == kCount) {
+        break;
+      }
       try {
-        clouds.push_back(read_cloud(*it));
-      } catch (const std::exception&) {
+        clouds.push_back(read_cloud(message));
+      } catch (const std::runtime_error&) {
         continue;  // advance() counts it
       }
       clouds.back().records.source = topic;
-      clouds.back().record_time = it->getTime().toSec();
+      clouds.back().record_time = message.entry.time;
     }
     return clouds;
   }
@@ -223,63 +219,71 @@ class RosBag : public SequenceReader {
     converter_ = ScanConverter(times);
     converter_.learn(clouds);
     info_.has_point_times = converter_.has_point_times();
+    info_.origin = converter_.origin();
   }
 
-  static CloudMessage read_cloud(const rosbag::MessageInstance& message) {
-    const std::string bytes = bytes_of(message);
-    return is_livox(message.getDataType()) ? read_livox_custom(bytes) : read_point_cloud2(bytes);
+  CloudMessage read_cloud(const BagMessage& message) {
+    const std::string_view bytes = bags_.bytes(message);
+    return is_livox(bags_.connection(message).type) ? read_livox_custom(bytes)
+                                                    : read_point_cloud2(bytes);
   }
 
   /// Reads one message; false at the end. A bad one is counted and left out.
   bool advance() {
-    if (next_ == view_.end()) {
+    if (next_ == messages_.size()) {
       return false;
     }
-    const rosbag::MessageInstance message = *next_;
-    const bool is_imu_message = is_imu(message.getDataType());
+    const BagMessage& message = messages_[next_++];
+    const RosBagConnection& connection = bags_.connection(message);
+    const bool is_imu_message = is_imu(connection.type);
     try {
       is_imu_message ? take_imu(message) : take_cloud(message);
-    } catch (const std::exception& error) {
+    } catch (const std::runtime_error& error) {
       (is_imu_message ? bad_imu_ : bad_clouds_)
-          .add(fmt::format(
-              "{} at {:.6f} s {}", message.getTopic(), message.getTime().toSec(), error.what()));
+          .add(
+              fmt::format("{} at {:.6f} s {}", connection.topic, message.entry.time, error.what()));
     }
-    ++next_;
     return true;
   }
 
-  void take_cloud(const rosbag::MessageInstance& message) {
+  void take_cloud(const BagMessage& message) {
     const CloudMessage cloud = read_cloud(message);
-    const auto stamp = clocks_.cloud.date({cloud.stamp, message.getTime().toSec()});
-    lio::Scan scan = converter_.convert(cloud.records, stamp.value_or(cloud.stamp));
-    if (!stamp || scan.t_begin <= previous_scan_) {
-      throw std::runtime_error(
-          fmt::format("(stamp {:.6f} s) repeats, is late or jumps in time", cloud.stamp));
+    const auto stamp = clocks_.cloud.date({cloud.stamp, message.entry.time});
+    if (!stamp) {
+      refuse_time(cloud.stamp);
+    }
+    lio::Scan scan = converter_.convert(cloud.records, *stamp);
+    if (scan.t_begin <= previous_scan_) {
+      refuse_time(cloud.stamp);
     }
     previous_scan_ = scan.t_begin;
     scans_.push_back(std::move(scan));
   }
 
-  void take_imu(const rosbag::MessageInstance& message) {
-    lio::ImuSample sample = read_imu(bytes_of(message));
+  void take_imu(const BagMessage& message) {
+    lio::ImuSample sample = read_imu(bags_.bytes(message));
     sample.accel *= accel_scale_;
     if (const auto problem = problem_of(sample)) {
       throw std::runtime_error(*problem);
     }
-    const auto time = clocks_.imu.date({sample.time, message.getTime().toSec()});
+    const auto time = clocks_.imu.date({sample.time, message.entry.time});
     if (!time || *time <= previous_imu_) {
-      throw std::runtime_error(
-          fmt::format("(stamp {:.6f} s) repeats, is late or jumps in time", sample.time));
+      refuse_time(sample.time);
     }
     sample.time = previous_imu_ = *time;
     gaps_.add(sample.time);
     imu_.push_back(sample);
   }
 
+  [[noreturn]] static void refuse_time(double stamp) {
+    throw std::runtime_error(
+        fmt::format("(stamp {:.6f} s) repeats, is late or jumps in time", stamp));
+  }
+
   std::string path_;
-  rosbag::Bag bag_;
-  rosbag::View view_;
-  rosbag::View::iterator next_;
+  RosBags bags_;
+  std::vector<BagMessage> messages_;  ///< of both topics in order of recording
+  std::size_t next_ = 0;
   mutable SequenceInfo info_;
   std::size_t fixed_notes_ = 0;  ///< the notes before those that change while reading
   ScanConverter converter_;
@@ -296,9 +300,9 @@ class RosBag : public SequenceReader {
 
 }  // namespace
 
-std::unique_ptr<SequenceReader> open_ros_bag(
-    const std::string& path, const SequenceOptions& options) {
-  return std::make_unique<RosBag>(path, options);
+std::unique_ptr<SequenceReader> open_ros_bags(
+    const std::vector<std::string>& paths, const SequenceOptions& options) {
+  return std::make_unique<RosBag>(paths, options);
 }
 
 }  // namespace nvm::io

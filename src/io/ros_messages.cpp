@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The nvm authors
 #include "io/ros_messages.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -9,51 +10,25 @@
 #include <string>
 #include <utility>
 
+#include "io/byte_cursor.hpp"
+
 namespace nvm::io {
 namespace {
 
-/// Takes values off the front of a serialised message.
-class Cursor {
- public:
-  explicit Cursor(std::string_view bytes) : rest_(bytes) {}
+/// The stamp [s] of a std_msgs/Header.
+double header(ByteCursor& cursor) {
+  cursor.next<std::uint32_t>();  // seq
+  const auto seconds = cursor.next<std::uint32_t>();
+  const auto nanoseconds = cursor.next<std::uint32_t>();
+  cursor.sized_block();  // frame_id
+  return seconds + 1e-9 * nanoseconds;
+}
 
-  std::string_view block(std::size_t size) {
-    if (size > rest_.size()) {
-      throw std::runtime_error("the message is truncated");
-    }
-    const std::string_view block = rest_.substr(0, size);
-    rest_.remove_prefix(size);
-    return block;
-  }
-
-  template <class T>
-  T next() {
-    T value{};
-    std::memcpy(&value, block(sizeof(T)).data(), sizeof(T));
-    return value;
-  }
-
-  /// A block after its size: a text, or an array of bytes.
-  std::string_view sized_block() { return block(next<std::uint32_t>()); }
-
-  /// The stamp [s] of a std_msgs/Header.
-  double header() {
-    next<std::uint32_t>();  // seq
-    const auto seconds = next<std::uint32_t>();
-    const auto nanoseconds = next<std::uint32_t>();
-    sized_block();  // frame_id
-    return seconds + 1e-9 * nanoseconds;
-  }
-
-  Eigen::Vector3d vector() {
-    const auto x = next<double>();
-    const auto y = next<double>();
-    return {x, y, next<double>()};
-  }
-
- private:
-  std::string_view rest_;
-};
+Eigen::Vector3d vector(ByteCursor& cursor) {
+  const auto x = cursor.next<double>();
+  const auto y = cursor.next<double>();
+  return {x, y, cursor.next<double>()};
+}
 
 /// The type that PointField's datatypes 1 to 8 stand for.
 std::optional<ScalarType> scalar_type(std::uint8_t datatype) {
@@ -70,7 +45,7 @@ std::optional<ScalarType> scalar_type(std::uint8_t datatype) {
                                                     : std::nullopt;
 }
 
-std::vector<Field> point_fields(Cursor& cursor) {
+std::vector<Field> point_fields(ByteCursor& cursor) {
   std::vector<Field> fields;
   for (auto left = cursor.next<std::uint32_t>(); left > 0; --left) {
     Field field;
@@ -86,15 +61,18 @@ std::vector<Field> point_fields(Cursor& cursor) {
   return fields;
 }
 
-/// The points of `data` without the padding between rows.
+/// The points of `data` without the padding between rows. A row_step below the row's size, as some
+/// drivers write, counts as none.
 std::string packed_rows(
     std::string_view data, std::size_t height, std::size_t row_size, std::size_t row_step) {
+  const std::size_t step = std::max(row_step, row_size);
+  if (height > data.size() / std::max<std::size_t>(row_size, 1) ||
+      (height - 1) * step + row_size > data.size()) {
+    throw std::runtime_error("the cloud has fewer data than its size says");
+  }
   std::string bytes;
   for (std::size_t row = 0; row < height; ++row) {
-    if (row * row_step > data.size() || row_size > data.size() - row * row_step) {
-      throw std::runtime_error("the cloud has fewer data than its size says");
-    }
-    bytes += data.substr(row * row_step, row_size);
+    bytes += data.substr(row * step, row_size);
   }
   return bytes;
 }
@@ -102,10 +80,10 @@ std::string packed_rows(
 }  // namespace
 
 CloudMessage read_point_cloud2(std::string_view bytes) {
-  Cursor cursor(bytes);
+  ByteCursor cursor(bytes);
   CloudMessage message;
   PointRecords& records = message.records;
-  message.stamp = cursor.header();
+  message.stamp = header(cursor);
   const std::size_t height = cursor.next<std::uint32_t>();
   const std::size_t width = cursor.next<std::uint32_t>();
   records.source = "PointCloud2";
@@ -121,6 +99,9 @@ CloudMessage read_point_cloud2(std::string_view bytes) {
     records.bytes = is_packed ? std::string(data) : packed_rows(data, height, row_size, row_step);
   }
   records = checked(std::move(records));
+  if (records.missing > 0) {
+    throw std::runtime_error("the cloud has fewer data than its size says");
+  }
   return message;
 }
 
@@ -138,9 +119,9 @@ PointRecords livox_records() {
 }
 
 CloudMessage read_livox_custom(std::string_view bytes) {
-  Cursor cursor(bytes);
+  ByteCursor cursor(bytes);
   CloudMessage message;
-  message.stamp = cursor.header();
+  message.stamp = header(cursor);
   cursor.next<std::uint64_t>();  // timebase: the stamp in ns
   cursor.next<std::uint32_t>();  // point_num: said again by the array
   cursor.block(4);               // lidar_id, rsvd
@@ -152,13 +133,13 @@ CloudMessage read_livox_custom(std::string_view bytes) {
 
 lio::ImuSample read_imu(std::string_view bytes) {
   constexpr std::size_t kCovariance = 9 * sizeof(double);
-  Cursor cursor(bytes);
+  ByteCursor cursor(bytes);
   lio::ImuSample sample;
-  sample.time = cursor.header();
+  sample.time = header(cursor);
   cursor.block(4 * sizeof(double) + kCovariance);  // orientation
-  sample.gyro = cursor.vector();
+  sample.gyro = vector(cursor);
   cursor.block(kCovariance);
-  sample.accel = cursor.vector();
+  sample.accel = vector(cursor);
   cursor.block(kCovariance);
   return sample;
 }

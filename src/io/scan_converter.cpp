@@ -2,18 +2,14 @@
 // Copyright (c) 2026 The nvm authors
 #include "io/scan_converter.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <initializer_list>
-#include <limits>
-#include <string>
-#include <string_view>
 #include <tuple>
-#include <utility>
-#include <vector>
 
 #include "io/file.hpp"
+#include "io/scan_points.hpp"
 #include "io/sweep_azimuth.hpp"
 
 namespace nvm::io {
@@ -25,93 +21,7 @@ constexpr double kNear = 10.0;
 /// Ticks that sample a cloud's times.
 constexpr std::size_t kSampleSize = 500;
 
-template <class Member>
-void read_member(const PointRecords& records, const Field* field, Member member, lio::Scan& scan) {
-  using Value = std::remove_reference_t<decltype(scan.points[0].*member)>;
-  constexpr double kMax = std::numeric_limits<Value>::max();
-  if (field != nullptr) {
-    for_each_value(records, *field, [&](std::size_t i, double value) {
-      const bool fits = std::is_floating_point_v<Value> || (value >= 0.0 && value <= kMax);
-      scan.points[i].*member = fits ? static_cast<Value>(value) : Value{};
-    });
-  }
-}
-
-std::vector<double> read_column(const PointRecords& records, const Field& field) {
-  std::vector<double> values(records.size);
-  for_each_value(records, field, [&](std::size_t i, double value) { values[i] = value; });
-  return values;
-}
-
-/// Sensors and drivers give a direction without return as NaN, or as zero.
-bool is_return(const lio::TimedPoint& point) {
-  return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z) &&
-         (point.x != 0.0F || point.y != 0.0F || point.z != 0.0F);
-}
-
-/// Drops the points without a position or a finite tick; `ticks` is empty or as long as the points.
-void drop_no_returns(lio::Scan& scan, std::vector<double>& ticks) {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < scan.points.size(); ++i) {
-    if (is_return(scan.points[i]) && (ticks.empty() || std::isfinite(ticks[i]))) {
-      scan.points[kept] = scan.points[i];
-      if (!ticks.empty()) {
-        ticks[kept] = ticks[i];
-      }
-      ++kept;
-    }
-  }
-  scan.points.resize(kept);
-  ticks.resize(std::min(kept, ticks.size()));
-}
-
-/// How the ticks of `field` are stored.
-TickType tick_type(const Field& field) {
-  TickType type;
-  type.is_whole = is_integer(field.type);
-  if (field.type == ScalarType::kUint16 || field.type == ScalarType::kUint32) {
-    type.modulus = std::exp2(8.0 * static_cast<double>(size_of(field.type)));
-  }
-  type.resolution = field.type == ScalarType::kFloat32 ? std::exp2(-23.0) : 0.0;
-  return type;
-}
-
-void read_points_of(const PointRecords& records, lio::Scan& scan) {
-  scan.points.resize(records.size);
-  const std::array<std::pair<const char*, float lio::TimedPoint::*>, 3> coordinates = {
-      {{"x", &lio::TimedPoint::x}, {"y", &lio::TimedPoint::y}, {"z", &lio::TimedPoint::z}}};
-  for (const auto& [name, member] : coordinates) {
-    const Field* field = records.find({name});
-    if (field == nullptr) {
-      fail(records.source, std::string("has no field '") + name + "'");
-    }
-    read_member(records, field, member, scan);
-  }
-  read_member(
-      records, records.find({"intensity", "reflectivity"}), &lio::TimedPoint::intensity, scan);
-  read_member(records, records.find({"ring", "line", "channel"}), &lio::TimedPoint::ring, scan);
-}
-
-void sort_by_time(std::vector<lio::TimedPoint>& points) {
-  const auto is_earlier = [](const lio::TimedPoint& a, const lio::TimedPoint& b) {
-    return a.dt < b.dt;
-  };
-  if (!std::is_sorted(points.begin(), points.end(), is_earlier)) {
-    std::stable_sort(points.begin(), points.end(), is_earlier);
-  }
-}
-
 }  // namespace
-
-const Field* find_time_field(const PointRecords& records) {
-  return records.find({"time",       "t",           "timestamp",     "offset_time",
-                       "time_stamp", "time_offset", "timeoffset",    "timestamps",
-                       "ts",         "stamp",       "point_time",    "pointtime",
-                       "rel_time",   "dt",          "relative_time", "delta_time",
-                       "time_us",    "time_ns",     "t_offset",      "gps_time",
-                       "GpsTime",    "Time",        "Timestamp",     "TimeStamp",
-                       "time_sec",   "toffset",     "offset",        "timestamp_offset"});
-}
 
 const Field* ScanConverter::time_field(const PointRecords& records) const {
   if (options_.field.empty()) {
@@ -138,10 +48,9 @@ SweepSample ScanConverter::sample_of(const CloudMessage& cloud) const {
   if (field == nullptr) {
     return sample;
   }
-  lio::Scan scan;
-  read_points_of(cloud.records, scan);
+  std::vector<lio::TimedPoint> points = read_scan_points(cloud.records, {});
   std::vector<double> ticks = read_column(cloud.records, *field);
-  drop_no_returns(scan, ticks);
+  drop_no_returns(points, ticks);
   const std::size_t step = ticks.size() / kSampleSize + 1;
   for (std::size_t i = 0; i < ticks.size(); i += step) {
     sample.ticks.push_back(ticks[i]);
@@ -160,6 +69,9 @@ void ScanConverter::learn(const std::vector<CloudMessage>& clouds) {
   for (const CloudMessage& cloud : clouds) {
     samples.push_back(sample_of(cloud));
     source_ = cloud.records.source;
+    if (samples.size() == 1) {
+      origin_ = map_origin(cloud.records);
+    }
     if (const Field* field = time_field(cloud.records)) {
       field_ = field->name;
       type = tick_type(*field);
@@ -170,13 +82,12 @@ void ScanConverter::learn(const std::vector<CloudMessage>& clouds) {
   if (times_.base != PointTimes::Base::kNone || clouds.empty()) {
     return;
   }
-  lio::Scan scan;
+  std::vector<lio::TimedPoint> points = read_scan_points(clouds.back().records, {});
   std::vector<double> no_ticks;
-  read_points_of(clouds.back().records, scan);
-  drop_no_returns(scan, no_ticks);
+  drop_no_returns(points, no_ticks);
   const bool is_wanted =
       options_.field == "azimuth" || (options_.is_raw && options_.field != "none");
-  uses_azimuth_ = is_wanted && !sweep_fractions(scan.points).empty();
+  uses_azimuth_ = is_wanted && !sweep_fractions(points).empty();
 }
 
 std::vector<std::string> ScanConverter::notes() const {
@@ -195,6 +106,15 @@ std::vector<std::string> ScanConverter::notes() const {
                             "sensor moves: set input.point_time_field to the field with the times, "
                             "or to azimuth for raw scans of a spinning sensor";
     notes.push_back(note + (times_.is_stamp_at_end ? "; the stamp dates the sweep's end" : ""));
+  }
+  if (origin_ != std::array<double, 3>{}) {
+    notes.push_back(fmt::format(
+        "{}the points lie around ({:.0f}, {:.0f}, {:.0f}) m, as in a map's coordinates: this is "
+        "taken off as the local origin",
+        prefix,
+        origin_[0],
+        origin_[1],
+        origin_[2]));
   }
   if (wrong_times_ > 0) {
     notes.push_back(
@@ -215,10 +135,10 @@ lio::Scan ScanConverter::convert(const PointRecords& records, double stamp) {
     learn({{stamp, records}});
   }
   lio::Scan scan;
-  read_points_of(records, scan);
+  scan.points = read_scan_points(records, origin_);
   const Field* time = times_.base == PointTimes::Base::kNone ? nullptr : time_field(records);
   std::vector<double> ticks = time ? read_column(records, *time) : std::vector<double>{};
-  drop_no_returns(scan, ticks);
+  drop_no_returns(scan.points, ticks);
   scan.t_begin = times_.sweep_begin(stamp);
   scan.t_end = scan.t_begin;
   if (!ticks.empty()) {

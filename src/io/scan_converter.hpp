@@ -2,7 +2,9 @@
 // Copyright (c) 2026 The nvm authors
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -18,9 +20,6 @@ struct CloudMessage {
   PointRecords records;
   double record_time = std::numeric_limits<double>::quiet_NaN();  ///< [s]; NaN: unknown
 };
-
-/// The field with the points' times, by one of the names in use; nullptr without.
-const Field* find_time_field(const PointRecords& records);
 
 /// Turns point records into scans. Keeps what it learnt of their times for the scans to come.
 class ScanConverter {
@@ -44,6 +43,9 @@ class ScanConverter {
   lio::Scan convert(const PointRecords& records, double stamp);
 
   const PointTimes& times() const { return times_; }
+
+  /// What is taken off all points [m]: map_origin() of the first scan.
+  const std::array<double, 3>& origin() const { return origin_; }
   bool has_point_times() const { return times_.base != PointTimes::Base::kNone || uses_azimuth_; }
 
   /// What was inferred and what was left out, for the user; grows with the scans.
@@ -59,6 +61,7 @@ class ScanConverter {
 
   PointTimeOptions options_;
   PointTimes times_;
+  std::array<double, 3> origin_{};
   double modulus_ = 0.0;  ///< of the time field
   bool has_learnt_ = false;
   bool uses_azimuth_ = false;

@@ -5,140 +5,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
-#include <filesystem>
 #include <limits>
-#include <map>
-#include <utility>
+#include <set>
+#include <stdexcept>
 
-#include "config/value.hpp"
 #include "io/file.hpp"
 #include "io/left_out.hpp"
-#include "io/line_reader.hpp"
-#include "io/natural_order.hpp"
 #include "io/scan_converter.hpp"
-#include "io/trajectory_io.hpp"
+#include "io/scan_files.hpp"
 
 namespace nvm::io {
 namespace {
-
-namespace fs = std::filesystem;
-
-struct ScanFile {
-  fs::path path;
-  double time = 0.0;  ///< [s]
-};
-
-bool is_scan(const fs::path& path) {
-  const std::string extension = extension_of(path.string());
-  return extension == ".pcd" || extension == ".ply" || extension == ".bin";
-}
-
-std::vector<ScanFile> scans_in(const fs::path& folder) {
-  std::vector<ScanFile> scans;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.is_regular_file() && is_scan(entry.path())) {
-      scans.push_back({entry.path()});
-    }
-  }
-  std::sort(scans.begin(), scans.end(), [](const ScanFile& a, const ScanFile& b) {
-    return precedes_naturally(a.path.filename().string(), b.path.filename().string());
-  });
-  return scans;
-}
-
-std::vector<ScanFile> find_scans(const std::string& path) {
-  for (const char* subfolder : {"", "scans", "velodyne"}) {
-    const fs::path folder = fs::path(path) / subfolder;
-    auto scans = fs::is_directory(folder) ? scans_in(folder) : std::vector<ScanFile>{};
-    if (!scans.empty()) {
-      return scans;
-    }
-  }
-  fail(path, "has no .pcd, .ply or .bin scans, and no subfolder 'scans' or 'velodyne' with some");
-}
-
-/// The file `name` beside the scans or one folder above; empty without one.
-std::string find_beside(const std::vector<ScanFile>& scans, const char* name) {
-  const fs::path folder = fs::absolute(scans.front().path).parent_path();
-  for (const fs::path& candidate : {folder / name, folder.parent_path() / name}) {
-    if (fs::is_regular_file(candidate)) {
-      return candidate.string();
-    }
-  }
-  return {};
-}
-
-/// The scans that `timestamps.txt` lists, with its times and in its order.
-std::vector<ScanFile> listed_scans(const std::vector<ScanFile>& scans, const std::string& path) {
-  std::map<std::string, fs::path> paths;
-  for (const ScanFile& scan : scans) {
-    paths[scan.path.filename().string()] = scan.path;
-  }
-  std::vector<ScanFile> listed;
-  LineReader lines(path);
-  while (const auto words = lines.next()) {
-    if (words->size() != 2) {
-      lines.fail("is not of the form 'file time'");
-    }
-    const std::string name = fs::path(std::string((*words)[0])).filename().string();
-    const double time = lines.number((*words)[1]);
-    if (paths.count(name) == 0) {
-      lines.fail("there is no scan " + quote(name));
-    }
-    if (!listed.empty() && time <= listed.back().time) {
-      lines.fail("the time is not above the one before");
-    }
-    listed.push_back({paths[name], time});
-  }
-  return listed;
-}
-
-/// The time [s] that a file name without its extension spells; nothing when it is a mere number.
-std::optional<double> time_of_name(const std::string& stem) {
-  constexpr std::size_t kTimeDigits = 10;
-  const bool is_digits = std::all_of(
-      stem.begin(), stem.end(), [](unsigned char c) { return std::isdigit(c) || c == '.'; });
-  const auto number = config::parse_number(stem);
-  if (!is_digits || !number || (stem.size() < kTimeDigits && stem.find('.') == std::string::npos)) {
-    return std::nullopt;
-  }
-  double time = *number;
-  while (time > 1e11) {  // beyond the year 5000: the unit must be smaller by 1000
-    time /= 1000.0;
-  }
-  return time;
-}
-
-/// Takes the times from the files' names; false, and no change, unless all are times.
-bool set_times_by_name(std::vector<ScanFile>& scans) {
-  std::vector<ScanFile> timed = scans;
-  for (ScanFile& scan : timed) {
-    const auto time = time_of_name(scan.path.stem().string());
-    if (!time) {
-      return false;
-    }
-    scan.time = *time;
-  }
-  std::sort(timed.begin(), timed.end(), [](const ScanFile& a, const ScanFile& b) {
-    return a.time < b.time;
-  });
-  scans = std::move(timed);
-  return true;
-}
-
-void set_times_by_line(std::vector<ScanFile>& scans, const std::string& path) {
-  const std::vector<double> times = read_times(path);
-  if (times.size() != scans.size()) {
-    fail(
-        path,
-        "has " + std::to_string(times.size()) + " times for " + std::to_string(scans.size()) +
-            " scans");
-  }
-  for (std::size_t i = 0; i < scans.size(); ++i) {
-    scans[i].time = times[i];
-  }
-}
 
 PointTimeOptions point_time_options(const SequenceOptions& options) {
   PointTimeOptions times;
@@ -152,8 +29,11 @@ PointTimeOptions point_time_options(const SequenceOptions& options) {
 class ScanFolder : public SequenceReader {
  public:
   ScanFolder(const std::string& path, const SequenceOptions& options)
-      : path_(path), scans_(find_scans(path)), converter_(point_time_options(options)) {
-    set_times(options.scan_rate);
+      : path_(path),
+        bin_fields_(options.bin_fields),
+        scans_(find_scans(path, info_.notes)),
+        converter_(point_time_options(options)) {
+    date_scans(scans_, options.scan_rate, info_.notes);
     learn_times();
     info_.format = "folder of " + extension_of(scans_.front().path.string()) + " scans";
     info_.scan_count = scans_.size();
@@ -167,6 +47,12 @@ class ScanFolder : public SequenceReader {
     info_.notes.insert(info_.notes.end(), notes.begin(), notes.end());
     if (const auto note = bad_scans_.note()) {
       info_.notes.push_back(*note);
+    }
+    if (!cut_files_.empty()) {
+      info_.notes.push_back(fmt::format(
+          "{} files are cut off, and read as far as they go; the first: {}",
+          cut_files_.size(),
+          *cut_files_.begin()));
     }
     return info_;
   }
@@ -188,30 +74,34 @@ class ScanFolder : public SequenceReader {
   std::vector<lio::ImuSample> imu_until(double) override { return {}; }
 
  private:
-  void set_times(double scan_rate) {
-    if (const std::string list = find_beside(scans_, "timestamps.txt"); !list.empty()) {
-      const std::size_t found = scans_.size();
-      scans_ = listed_scans(scans_, list);
-      if (scans_.empty()) {
-        fail(list, "lists no scan");
-      }
-      if (scans_.size() < found) {
-        info_.notes.push_back(
-            fmt::format("{} scans without a time in {} are left out", found - scans_.size(), list));
-      }
-    } else if (const std::string times = find_beside(scans_, "times.txt"); !times.empty()) {
-      set_times_by_line(scans_, times);
-    } else if (!set_times_by_name(scans_)) {
-      for (std::size_t i = 0; i < scans_.size(); ++i) {
-        scans_[i].time = static_cast<double>(i) / scan_rate;
-      }
+  PointRecords read(const ScanFile& file) const {
+    PointRecords records = read_points(file.path.string(), bin_fields_);
+    if (records.missing > 0) {
+      cut_files_.insert(file.path.filename().string());
+    }
+    return records;
+  }
+
+  /// Files without header are read alike, as the first one is.
+  void note_fields(const PointRecords& records, const ScanFile& file) {
+    if (extension_of(file.path.string()) != ".bin" || bin_fields_ != 0 || records.size == 0 ||
+        records.fields.back().count > 1) {
+      return;
+    }
+    bin_fields_ = records.fields.size();
+    std::string names;
+    for (const Field& field : records.fields) {
+      names += " " + field.name;
+    }
+    if (bin_fields_ != 4) {
       info_.notes.push_back(
-          fmt::format("no times of the scans are known: {} Hz is assumed", scan_rate));
+          ".bin files are read as float32" + names +
+          ", by their numbers; input.bin_fields sets it");
     }
   }
 
   lio::Scan read_scan(const ScanFile& file) {
-    lio::Scan scan = converter_.convert(read_points(file.path.string()), file.time);
+    lio::Scan scan = converter_.convert(read(file), file.time);
     if (scan.t_begin <= previous_time_) {
       fail(file.path.string(), "begins no later than the scan before it");
     }
@@ -225,21 +115,25 @@ class ScanFolder : public SequenceReader {
     std::vector<CloudMessage> first;
     for (std::size_t i = 0; i < std::min(kCount, scans_.size()); ++i) {
       try {
-        first.push_back({scans_[i].time, read_points(scans_[i].path.string())});
+        first.push_back({scans_[i].time, read(scans_[i])});
         first.back().records.source = path_;
+        note_fields(first.back().records, scans_[i]);
       } catch (const std::runtime_error&) {
         continue;  // next_scan() counts it
       }
     }
     converter_.learn(first);
     info_.has_point_times = converter_.has_point_times();
+    info_.origin = converter_.origin();
   }
 
+  mutable SequenceInfo info_;
   std::string path_;
+  std::size_t bin_fields_;
   std::vector<ScanFile> scans_;
   ScanConverter converter_;
   LeftOut bad_scans_{"scans are"};
-  mutable SequenceInfo info_;
+  mutable std::set<std::string> cut_files_;
   std::size_t fixed_notes_ = 0;  ///< the notes before those that change while reading
   std::size_t next_ = 0;
   double previous_time_ = -std::numeric_limits<double>::infinity();

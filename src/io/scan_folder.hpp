@@ -9,15 +9,10 @@
 
 namespace nvm::io {
 
-/// Opens a folder of .pcd, .ply or KITTI .bin scans, which are in the folder itself or in its
-/// subfolder "scans" or "velodyne", in the order of their names (numbers in names by their value).
-///
-/// The time of a scan is, in this order: that of its points, when absolute; of `timestamps.txt`
-/// (lines "file t", [s]); of `times.txt` (one time per line, as in KITTI); the file's name, when it
-/// is a number with a point or at least ten digits ([s], or [ms], [us], [ns] by its size); else the
-/// scans follow each other at `options.scan_rate`. The text files stand beside the scans or one
-/// folder above. Throws std::runtime_error, naming the file, when there are no scans or when the
-/// times do not fit them.
+/// Opens a folder of .pcd, .ply or .bin scans (find_scans), or one such file, in the order of their
+/// times: those of their points, when absolute, else as date_scans() finds them. Scans that cannot
+/// be read or do not begin after the one before are left out and counted in a note. Throws
+/// std::runtime_error, naming the file, when there are no scans or no scan can be read.
 std::unique_ptr<SequenceReader> open_scan_folder(
     const std::string& path, const SequenceOptions& options);
 

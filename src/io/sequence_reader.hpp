@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The nvm authors
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -33,6 +34,8 @@ struct SequenceOptions {
   std::string point_time_field;
   StampMeaning stamp = StampMeaning::kAutomatic;  ///< of a scan
   ClockChoice clock = ClockChoice::kAutomatic;    ///< of a bag
+  /// Numbers a point in .bin files, 3 to 6; 0: as they look
+  std::size_t bin_fields = 0;
   double scan_rate = 10.0;  ///< [Hz], 0.01 to 1000; of scan files without any time
 };
 
@@ -42,7 +45,11 @@ struct SequenceInfo {
   std::size_t scan_count = 0;  ///< 0: unknown
   bool has_imu = false;
   bool has_point_times = false;
+  bool has_T_imu_lidar = false;         ///< whether the sequence tells the extrinsic
   Pose T_imu_lidar = Pose::Identity();  ///< extrinsic; identity when the sequence does not tell
+  /// What was taken off all points: the place of a scan in a map's coordinates [m]; zero in scans
+  /// whose points lie around the sensor, as they should
+  std::array<double, 3> origin{};
   std::vector<std::string> notes;       ///< what the user should know; grows while reading
   std::size_t skipped_scans = 0;        ///< so far: could not be read, repeat or go back in time
   std::size_t skipped_imu_samples = 0;  ///< so far, for the same reasons
@@ -64,9 +71,9 @@ class SequenceReader {
   virtual std::vector<lio::ImuSample> imu_until(double time) = 0;
 };
 
-/// Opens a folder of PCD, PLY or KITTI .bin scans, an nvm sequence folder, or a ROS 1 bag.
-/// Throws std::runtime_error, naming `path`, when it is none of these, and std::invalid_argument
-/// for an option out of its range.
+/// Opens a folder of PCD, PLY or KITTI .bin scans or one of them, an nvm sequence folder, or a ROS
+/// 1 bag or a folder with the parts of one. Throws std::runtime_error, naming `path`, when it is
+/// none of these, and std::invalid_argument for an option out of its range.
 std::unique_ptr<SequenceReader> open_sequence(
     const std::string& path, const SequenceOptions& options = {});
 
