@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace nvm {
+#include "nvm/core/target.hpp"
 
+namespace nvm {
+inline namespace NVM_TARGET {}  // namespace NVM_TARGET
 namespace detail {
+inline namespace NVM_TARGET {
 
 /// [0, size) in consecutive blocks of `grain` elements, of which the last may be shorter. A grain
 /// of 0 counts as 1.
@@ -29,7 +32,9 @@ class Blocks {
   std::size_t grain_;
 };
 
+}  // namespace NVM_TARGET
 }  // namespace detail
+inline namespace NVM_TARGET {
 
 /// Runs `body(begin, end)` over consecutive blocks of [0, size) in the calling thread.
 ///
@@ -47,4 +52,5 @@ struct SerialExecutor {
   }
 };
 
+}  // namespace NVM_TARGET
 }  // namespace nvm

@@ -10,8 +10,10 @@
 #include <cstdint>
 
 #include "nvm/core/executor.hpp"
+#include "nvm/core/target.hpp"
 
 namespace nvm {
+inline namespace NVM_TARGET {
 
 /// Like SerialExecutor, on OpenMP's threads. OMP_NUM_THREADS or omp_set_num_threads limit them.
 struct OpenMpExecutor {
@@ -26,4 +28,5 @@ struct OpenMpExecutor {
   }
 };
 
+}  // namespace NVM_TARGET
 }  // namespace nvm

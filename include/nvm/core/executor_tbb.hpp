@@ -7,9 +7,11 @@
 #include <cstddef>
 
 #include "nvm/core/executor.hpp"
+#include "nvm/core/target.hpp"
 #include "nvm/core/thread_sanitizer.hpp"
 
 namespace nvm {
+inline namespace NVM_TARGET {
 
 /// Like SerialExecutor, on the threads of oneTBB. Limit them with tbb::global_control or a
 /// tbb::task_arena.
@@ -28,4 +30,5 @@ struct TbbExecutor {
   }
 };
 
+}  // namespace NVM_TARGET
 }  // namespace nvm

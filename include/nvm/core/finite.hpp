@@ -5,9 +5,12 @@
 #include <cstdint>
 #include <cstring>
 
+#include "nvm/core/target.hpp"
+
 // Tests of a number's bits: they see NaN and infinity where -ffast-math lets the compiler assume
 // that there are none.
 namespace nvm::detail {
+inline namespace NVM_TARGET {
 
 /// Orders the absolute values of numbers as the numbers, infinity after them, NaN last.
 inline std::uint64_t magnitude(double value) noexcept {
@@ -35,4 +38,5 @@ bool all_numbers(const Matrix& matrix) noexcept {
   return matrix.unaryExpr([](auto value) { return is_number(static_cast<double>(value)); }).all();
 }
 
+}  // namespace NVM_TARGET
 }  // namespace nvm::detail

@@ -9,6 +9,7 @@
 
 #include "nvm/core/finite.hpp"
 #include "nvm/core/require.hpp"
+#include "nvm/core/target.hpp"
 
 namespace nvm {
 
@@ -29,6 +30,7 @@ template <class Enum, std::size_t kCount>
 using OptionChoices = std::array<std::pair<const char*, Enum>, kCount>;
 
 namespace detail {
+inline namespace NVM_TARGET {
 
 /// A visitor that throws std::invalid_argument for the first option out of range.
 struct OptionValidator {
@@ -53,5 +55,6 @@ struct OptionValidator {
   }
 };
 
+}  // namespace NVM_TARGET
 }  // namespace detail
 }  // namespace nvm

@@ -7,7 +7,10 @@
 #include <type_traits>
 #include <utility>
 
+#include "nvm/core/target.hpp"
+
 namespace nvm {
+inline namespace NVM_TARGET {
 
 /// How nvm reads the coordinates of a point record. Specialise it for a record that is neither an
 /// Eigen 3-vector nor has members `x`, `y`, `z`:
@@ -33,13 +36,17 @@ struct PointAccess<
   }
 };
 
+}  // namespace NVM_TARGET
 namespace detail {
+inline namespace NVM_TARGET {
 
 template <class Derived>
 std::integral_constant<int, Derived::SizeAtCompileTime> eigen_size(
     const Eigen::MatrixBase<Derived>&);
 
+}  // namespace NVM_TARGET
 }  // namespace detail
+inline namespace NVM_TARGET {
 
 /// Eigen vectors (and maps, blocks, expressions) of three elements.
 template <class Vector>
@@ -49,7 +56,9 @@ struct PointAccess<
   static Eigen::Vector3d position(const Vector& vector) { return vector.template cast<double>(); }
 };
 
+}  // namespace NVM_TARGET
 namespace detail {
+inline namespace NVM_TARGET {
 
 template <class Point, class = void>
 struct IsPoint : std::false_type {};
@@ -69,7 +78,9 @@ struct IsPointRange<
         decltype(std::declval<const Range&>()[std::size_t{0}])>>
     : IsPoint<std::decay_t<decltype(std::declval<const Range&>()[std::size_t{0}])>> {};
 
+}  // namespace NVM_TARGET
 }  // namespace detail
+inline namespace NVM_TARGET {
 
 /// True when nvm can read a `Point`.
 template <class Point>
@@ -89,4 +100,5 @@ Eigen::Vector3d position(const Point& point) {
   return PointAccess<Point>::position(point);
 }
 
+}  // namespace NVM_TARGET
 }  // namespace nvm

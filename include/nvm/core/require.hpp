@@ -9,7 +9,10 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "nvm/core/target.hpp"
+
 namespace nvm {
+inline namespace NVM_TARGET {
 
 /// Throws std::invalid_argument "nvm: NAME = VALUE must be ALLOWED" unless `ok`: the one way in
 /// which options are refused.
@@ -22,4 +25,5 @@ void require(bool ok, const char* name, const Value& value, const char* allowed)
   }
 }
 
+}  // namespace NVM_TARGET
 }  // namespace nvm

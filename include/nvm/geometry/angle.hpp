@@ -5,7 +5,10 @@
 #include <Eigen/Core>
 #include <cmath>
 
+#include "nvm/core/target.hpp"
+
 namespace nvm {
+inline namespace NVM_TARGET {
 
 /// Compares angles between unit vectors by their cosine. Never through acos: on float-stored unit
 /// vectors the dot product of two equal vectors exceeds 1 half of the time, and its acos is NaN.
@@ -26,4 +29,5 @@ class AngleLimit {
   double cosine_;
 };
 
+}  // namespace NVM_TARGET
 }  // namespace nvm

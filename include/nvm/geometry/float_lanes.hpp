@@ -11,12 +11,15 @@
 #include <immintrin.h>
 #elif defined(__ARM_NEON)
 #include <arm_neon.h>
+
+#include "nvm/core/target.hpp"
 #endif
 
 // Arithmetic on several floats at once with the vector types of GCC and Clang: SSE2, AVX or NEON
 // code from one source. Code that is a template over its number type runs on float, on double and
 // on FloatLanes; on float and FloatLanes it gives the same bits.
 namespace nvm {
+inline namespace NVM_TARGET {
 
 /// Floats in one FloatLanes: as many as a register of the target holds.
 #if defined(__AVX__)
@@ -105,7 +108,9 @@ inline std::uint32_t lane_bits(const FloatLaneBits& mask) {
 #endif
 }
 
+}  // namespace NVM_TARGET
 namespace detail {
+inline namespace NVM_TARGET {
 
 // 1/sqrt by Newton steps from a first guess out of the float's bits. Plain arithmetic, because
 // std::sqrt may set errno and therefore does not vectorise without -fno-math-errno.
@@ -123,7 +128,9 @@ Real newton_inverse_sqrt(const Real& value) {
   return y;
 }
 
+}  // namespace NVM_TARGET
 }  // namespace detail
+inline namespace NVM_TARGET {
 
 /// 1/sqrt(value) to 2 units in the last place for positive normal numbers; finite for zero.
 inline FloatLanes inverse_sqrt(const FloatLanes& value) {
@@ -134,4 +141,5 @@ inline float inverse_sqrt(float value) {
 }
 inline double inverse_sqrt(double value) { return value > 0.0 ? 1.0 / std::sqrt(value) : 0.0; }
 
+}  // namespace NVM_TARGET
 }  // namespace nvm

@@ -2,7 +2,10 @@
 // Copyright (c) 2026 The nvm authors
 #pragma once
 
+#include "nvm/core/target.hpp"
+
 namespace nvm {
+inline namespace NVM_TARGET {
 
 /// A symmetric 3x3 matrix. `Real` is float, double or FloatLanes (one matrix per lane).
 template <class Real>
@@ -51,4 +54,5 @@ Symmetric3<Real> scatter(const Moments<Real>& m) {
       m.zz - m.z * mean_z};
 }
 
+}  // namespace NVM_TARGET
 }  // namespace nvm

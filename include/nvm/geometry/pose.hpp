@@ -4,11 +4,14 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "nvm/core/finite.hpp"
+#include "nvm/core/target.hpp"
 
 namespace nvm {
+inline namespace NVM_TARGET {
 
 /// A rigid transform T_a_b that maps coordinates of frame b to frame a. DontAlign, because the
 /// alignment of Eigen::Isometry3d depends on -march and would make it part of every user's ABI.
@@ -48,9 +51,19 @@ inline Eigen::Vector3d so3_log(const Eigen::Matrix3d& R) {
 /// True when `pose` is finite and its rotation is orthonormal with determinant +1, each entry of
 /// R^T R within `tolerance` of the identity's.
 inline bool is_rigid(const Pose& pose, double tolerance = 1e-6) {
+  if (!detail::all_finite(pose.matrix())) {
+    return false;
+  }
   const Eigen::Matrix3d R = pose.linear();
-  return detail::all_finite(pose.matrix()) && (R.transpose() * R).isIdentity(tolerance) &&
-         R.determinant() > 0.0;
+  double error = 0.0;  // of R^T R; written out, because Eigen's products are nobody's own code
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j <= i; ++j) {
+      const double dot = R(0, i) * R(0, j) + R(1, i) * R(1, j) + R(2, i) * R(2, j);
+      error = std::max(error, std::abs(dot - (i == j ? 1.0 : 0.0)));
+    }
+  }
+  return error <= tolerance && R.determinant() > 0.0;
 }
 
+}  // namespace NVM_TARGET
 }  // namespace nvm

@@ -6,10 +6,12 @@
 #include <tuple>
 #include <type_traits>
 
+#include "nvm/core/target.hpp"
 #include "nvm/geometry/float_lanes.hpp"
 #include "nvm/geometry/moments.hpp"
 
 namespace nvm {
+inline namespace NVM_TARGET {
 
 /// Three coordinates of number type `Real`: float, double or FloatLanes (one vector per lane).
 template <class Real>
@@ -25,7 +27,9 @@ struct Eigen3 {
   Vector3Of<Real> smallest_vector, middle_vector, largest_vector;
 };
 
+}  // namespace NVM_TARGET
 namespace detail {
+inline namespace NVM_TARGET {
 
 template <class Real>
 Real dot(const Vector3Of<Real>& a, const Vector3Of<Real>& b) {
@@ -199,7 +203,9 @@ EigenPair<Real> eigen_pair_across(const Symmetric3<Real>& m, const Vector3Of<Rea
       combine(cosine, u, sine, w)};
 }
 
+}  // namespace NVM_TARGET
 }  // namespace detail
+inline namespace NVM_TARGET {
 
 /// Eigenvalues and eigenvectors of `m` in closed form, without branches: the same steps for every
 /// matrix and, with FloatLanes, for several matrices at once.
@@ -251,4 +257,5 @@ inline EigenDecomposition eigen_decomposition(const Eigen::Matrix3d& m) {
   return result;
 }
 
+}  // namespace NVM_TARGET
 }  // namespace nvm

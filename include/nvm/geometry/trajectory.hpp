@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "nvm/core/target.hpp"
 #include "nvm/geometry/pose.hpp"
 
 namespace nvm {
@@ -20,6 +21,8 @@ struct StampedPose {
 
 /// Poses in ascending order of time.
 using Trajectory = std::vector<StampedPose>;
+
+inline namespace NVM_TARGET {
 
 /// The pose a share `alpha` (0 to 1) of the way from `a` to `b`: slerp for the rotation, a straight
 /// line for the position.
@@ -52,4 +55,5 @@ inline std::optional<Pose> pose_at(const Trajectory& trajectory, double time) {
       previous.pose, next->pose, (time - previous.time) / (next->time - previous.time));
 }
 
+}  // namespace NVM_TARGET
 }  // namespace nvm

@@ -15,6 +15,7 @@
 #include "nvm/core/finite.hpp"
 #include "nvm/core/point_access.hpp"
 #include "nvm/core/require.hpp"
+#include "nvm/core/target.hpp"
 #include "nvm/geometry/pose.hpp"
 #include "nvm/map/insert_stats.hpp"
 #include "nvm/map/map_concept.hpp"
@@ -22,6 +23,7 @@
 #include "nvm/map/voxel_set.hpp"
 
 namespace nvm {
+inline namespace NVM_TARGET {
 
 /// A map of bare points in a k-d tree that is rebuilt at every insertion: the baseline that knows
 /// no normals and no sides, with exact neighbours at any distance. Models the map concept, by
@@ -167,4 +169,5 @@ class KdTreeMap {
   Tree tree_;
 };
 
+}  // namespace NVM_TARGET
 }  // namespace nvm

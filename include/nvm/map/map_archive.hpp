@@ -10,11 +10,13 @@
 #include <vector>
 
 #include "nvm/core/option.hpp"
+#include "nvm/core/target.hpp"
 #include "nvm/map/operations/traversal.hpp"
 #include "nvm/map/storage/byte_stream.hpp"
 #include "nvm/map/voxel_map.hpp"
 
 namespace nvm {
+inline namespace NVM_TARGET {
 
 // The file: 8 bytes of magic, u32 version, u64 length of the body, the body, u32 CRC-32 of
 // everything before. All little endian. The body: the options in the order of visit_options(), the
@@ -33,7 +35,7 @@ class MapArchive {
   static std::vector<std::uint8_t> write(const VoxelMap& map) {
     detail::ByteWriter body;
     visit_options(map.options(), OptionWriter{body});
-    write_voxels(map.storage_, body);
+    write_voxels(map.engine_.storage(), body);
 
     detail::ByteWriter file;
     file.put(kMagic);
@@ -189,7 +191,7 @@ class MapArchive {
   }
 
   static void read_voxels(detail::ByteReader& in, std::uint32_t version, VoxelMap& map) {
-    detail::Recency& recency = map.storage_.recency();
+    detail::Recency& recency = map.engine_.storage().recency();
     const auto count = in.get<std::uint64_t>();
     for (std::uint64_t i = 0; i < count; ++i) {
       read_voxel(in, map);
@@ -213,12 +215,13 @@ class MapArchive {
   }
 
   static void read_voxel(detail::ByteReader& in, VoxelMap& map) {
-    detail::VoxelStorage& storage = map.storage_;
+    detail::VoxelStorage& storage = map.engine_.storage();
     const detail::VoxelIndex index = read_index(in);
     const auto listed = in.get<std::uint32_t>();
     const auto stamp = in.get<std::uint32_t>();
     const int surfaces = in.get<std::uint8_t>();
-    check(surfaces >= 1 && surfaces <= map.options_.max_surfaces, "is corrupt: number of surfaces");
+    check(
+        surfaces >= 1 && surfaces <= map.options().max_surfaces, "is corrupt: number of surfaces");
     const std::uint32_t brick = storage.find_brick(detail::index_key(detail::brick_index(index)));
     check(
         storage.head_in(brick, detail::cell_in_brick(index)) == detail::kNone,
@@ -241,7 +244,7 @@ class MapArchive {
   static void read_surface(
       detail::ByteReader& in, VoxelMap& map, const detail::VoxelIndex& index, std::uint32_t head) {
     const int size = in.get<std::uint8_t>();
-    check(size >= 1 && size <= map.options_.points_per_surface, "is corrupt: number of points");
+    check(size >= 1 && size <= map.options().points_per_surface, "is corrupt: number of points");
     std::uint32_t last = head;
     for (int i = 0; i < size; ++i) {
       detail::WrappedPoint point{};
@@ -262,18 +265,19 @@ class MapArchive {
           point.x == expected.x && point.y == expected.y && point.z == expected.z,
           "is corrupt: a point lies outside its voxel");
       check(
-          i % detail::kLanes != 0 || i == 0 || !map.storage_.chunks_exhausted(),
+          i % detail::kLanes != 0 || i == 0 || !map.engine_.storage().chunks_exhausted(),
           "is corrupt: it holds more than its limits allow");
-      last = map.storage_.append(head, last, point, normal);
-      if (map.storage_.counts_merged()) {
+      last = map.engine_.storage().append(head, last, point, normal);
+      if (map.engine_.storage().counts_merged()) {
         const int merged = in.get<std::uint8_t>();
         check(
-            merged >= 1 && merged <= map.options_.max_merged_points,
+            merged >= 1 && merged <= map.options().max_merged_points,
             "is corrupt: number of merged points");
-        map.storage_.restore_merged_points(last, i % detail::kLanes, merged);
+        map.engine_.storage().restore_merged_points(last, i % detail::kLanes, merged);
       }
     }
   }
 };
 
+}  // namespace NVM_TARGET
 }  // namespace nvm

@@ -7,11 +7,13 @@
 #include <type_traits>
 #include <utility>
 
+#include "nvm/core/target.hpp"
 #include "nvm/map/neighbor.hpp"
 
 namespace nvm {
-
+inline namespace NVM_TARGET {}  // namespace NVM_TARGET
 namespace detail {
+inline namespace NVM_TARGET {
 
 template <class Map, class = void>
 struct IsMap : std::false_type {};
@@ -36,7 +38,9 @@ struct IsMap<
               std::declval<Neighbor*>(),
               std::declval<typename Map::QueryContext&>()))> {};
 
+}  // namespace NVM_TARGET
 }  // namespace detail
+inline namespace NVM_TARGET {
 
 /// The map concept that registration needs. A model has
 ///
@@ -53,4 +57,5 @@ struct IsMap<
 template <class Map>
 inline constexpr bool is_map_v = detail::IsMap<Map>::value;
 
+}  // namespace NVM_TARGET
 }  // namespace nvm

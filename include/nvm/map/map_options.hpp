@@ -6,6 +6,7 @@
 
 #include "nvm/core/option.hpp"
 #include "nvm/core/require.hpp"
+#include "nvm/core/target.hpp"
 
 namespace nvm {
 
@@ -63,12 +64,14 @@ struct MapOptions {
 
   /// Throws std::invalid_argument with the name, the value and the allowed range of the first bad
   /// member.
-  void validate() const;
+  NVM_SHARED void validate() const;
 
   static constexpr std::size_t kMaxCapacity = std::size_t{1} << 26;
   static constexpr std::size_t kMinBytes = std::size_t{1} << 20;
   static constexpr int kMaxPointsPerSurface = 120;
 };
+
+inline namespace NVM_TARGET {
 
 /// Walks over the options (nvm/core/option.hpp); `Options` is MapOptions, const or not.
 template <class Options, class Visitor>
@@ -115,6 +118,8 @@ void visit_options(Options& options, Visitor&& visit) {
       Evictions{{{"lru", Eviction::kLeastRecentlyUsed}, {"radius", Eviction::kRadius}}});
   visit({"eviction_radius", 0.01, 1e9, "m", "With eviction: radius"}, options.eviction_radius);
 }
+
+}  // namespace NVM_TARGET
 
 inline void MapOptions::validate() const {
   visit_options(*this, detail::OptionValidator());

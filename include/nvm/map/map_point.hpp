@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "nvm/core/point_access.hpp"
+#include "nvm/core/target.hpp"
 
 namespace nvm {
 
@@ -19,7 +20,7 @@ struct MapPoint {
 
 template <>
 struct PointAccess<MapPoint> {
-  static Eigen::Vector3d position(const MapPoint& point) { return point.position; }
+  NVM_SHARED static Eigen::Vector3d position(const MapPoint& point) { return point.position; }
 };
 
 /// What a map holds. Counting takes time proportional to the map.

@@ -15,12 +15,14 @@
 #include <unistd.h>
 #endif
 
+#include "nvm/core/target.hpp"
 #include "nvm/map/map_archive.hpp"
 #include "nvm/map/voxel_map.hpp"
 
 namespace nvm {
-
+inline namespace NVM_TARGET {}  // namespace NVM_TARGET
 namespace detail {
+inline namespace NVM_TARGET {
 
 struct FileCloser {
   void operator()(std::FILE* file) const noexcept { std::fclose(file); }
@@ -65,7 +67,9 @@ inline void check_archive(const std::vector<std::uint8_t>& bytes, const std::str
   }
 }
 
+}  // namespace NVM_TARGET
 }  // namespace detail
+inline namespace NVM_TARGET {
 
 /// Writes `map` to `path`: to a temporary file beside it first, and only once it is known that it
 /// can be read back, so that no broken map is ever left there. Throws std::runtime_error, naming
@@ -110,4 +114,5 @@ inline VoxelMap load_map(const std::string& path) {
   }
 }
 
+}  // namespace NVM_TARGET
 }  // namespace nvm

@@ -7,8 +7,10 @@
 
 #include "nvm/core/finite.hpp"
 #include "nvm/core/point_access.hpp"
+#include "nvm/core/target.hpp"
 
 namespace nvm {
+inline namespace NVM_TARGET {
 
 /// The direction from `point` to the sensor at `origin`, as a unit vector: a stand-in for the
 /// normal of a host that has none. It tells the two faces of a wall apart, because a sensor sees
@@ -45,4 +47,5 @@ ViewDirections<Points> view_directions(const Points& points, const Eigen::Vector
   return {points, origin};
 }
 
+}  // namespace NVM_TARGET
 }  // namespace nvm

@@ -8,9 +8,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "nvm/core/target.hpp"
 #include "nvm/map/storage/lattice.hpp"
 
 namespace nvm {
+inline namespace NVM_TARGET {
 
 /// Remembers which cells of a cubic grid hold a point: thins a scan to one point per cell. A flat
 /// hash table that keeps its memory when cleared.
@@ -91,4 +93,5 @@ class VoxelSet {
   std::size_t size_ = 0;
 };
 
+}  // namespace NVM_TARGET
 }  // namespace nvm

@@ -5,12 +5,14 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "nvm/core/target.hpp"
 #include "nvm/normal/block_tree.hpp"
 #include "nvm/normal/node_list.hpp"
 #include "nvm/normal/query_block.hpp"
 #include "nvm/normal/tree_items.hpp"
 
 namespace nvm::detail {
+inline namespace NVM_TARGET {
 
 /// Sums the neighbourhoods of a block of queries over a BlockTree.
 ///
@@ -101,4 +103,5 @@ class BlockSearch {
   const BlockTree& tree_;
 };
 
+}  // namespace NVM_TARGET
 }  // namespace nvm::detail

@@ -9,10 +9,12 @@
 #include <limits>
 #include <vector>
 
+#include "nvm/core/target.hpp"
 #include "nvm/normal/cluster.hpp"
 #include "nvm/normal/sorted_points.hpp"
 
 namespace nvm::detail {
+inline namespace NVM_TARGET {
 
 /// A hierarchy of bounding boxes over items in spatial order. Leaf i bounds the items
 /// [4 i, 4 i + 4); every node above bounds a group of eight nodes of the level below. A level is
@@ -113,4 +115,5 @@ class BlockTree {
   std::uint32_t leaf_groups_ = 0;
 };
 
+}  // namespace NVM_TARGET
 }  // namespace nvm::detail

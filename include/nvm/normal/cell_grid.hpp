@@ -7,12 +7,14 @@
 #include <cstdint>
 #include <vector>
 
+#include "nvm/core/target.hpp"
 #include "nvm/geometry/moments.hpp"
 #include "nvm/normal/cluster.hpp"
 #include "nvm/normal/sorted_points.hpp"
 #include "nvm/normal/spatial_sorter.hpp"
 
 namespace nvm::detail {
+inline namespace NVM_TARGET {
 
 /// The points of a scan summed up in cubic cells, for NormalMethod::kPerCell.
 class CellGrid {
@@ -82,4 +84,5 @@ class CellGrid {
   std::vector<std::uint32_t> begin_;
 };
 
+}  // namespace NVM_TARGET
 }  // namespace nvm::detail

@@ -4,10 +4,12 @@
 
 #include <cstddef>
 
+#include "nvm/core/target.hpp"
 #include "nvm/geometry/float_lanes.hpp"
 #include "nvm/geometry/moments.hpp"
 
 namespace nvm::detail {
+inline namespace NVM_TARGET {
 
 /// Number, mean and scatter of points that enter a neighbourhood together. Local coordinates [m].
 struct Cluster {
@@ -66,4 +68,5 @@ inline void add_cluster(const Cluster& cluster, const Offset& d, Moments<FloatLa
   sum.zz += cluster.zz * d.weight + z * d.z;
 }
 
+}  // namespace NVM_TARGET
 }  // namespace nvm::detail

@@ -9,12 +9,14 @@
 #include <cstdint>
 #include <nanoflann.hpp>
 
+#include "nvm/core/target.hpp"
 #include "nvm/geometry/float_lanes.hpp"
 #include "nvm/geometry/moments.hpp"
 #include "nvm/normal/query_block.hpp"
 #include "nvm/normal/sorted_points.hpp"
 
 namespace nvm::detail {
+inline namespace NVM_TARGET {
 
 /// Sums the neighbourhoods of a block of queries over nanoflann's k-d tree: the reference of
 /// spec §2.2, with the same neighbours as BlockSearch. Reads only; safe from many threads.
@@ -101,6 +103,7 @@ class KdTreeSearch {
   Tree tree_;
 };
 
+}  // namespace NVM_TARGET
 }  // namespace nvm::detail
 
 #endif

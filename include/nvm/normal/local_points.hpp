@@ -10,10 +10,12 @@
 
 #include "nvm/core/finite.hpp"
 #include "nvm/core/point_access.hpp"
+#include "nvm/core/target.hpp"
 #include "nvm/normal/normal_options.hpp"
 #include "nvm/normal/normal_result.hpp"
 
 namespace nvm {
+inline namespace NVM_TARGET {
 
 /// The neighbourhood radius as a function of range: Eq. 1 as decided in spec §2.2,
 /// r = R_min + clamp((D - D_min) / (D_max - D_min), 0, 1) (R_max - R_min).
@@ -38,7 +40,9 @@ class RadiusLaw {
   double min_range_, slope_, min_radius_, max_radius_;
 };
 
+}  // namespace NVM_TARGET
 namespace detail {
+inline namespace NVM_TARGET {
 
 /// The viewpoint of point `i`: `viewpoints` is one point or a range of points.
 template <class Viewpoints>
@@ -106,5 +110,7 @@ class Localizer {
   RadiusLaw radius_;
 };
 
+}  // namespace NVM_TARGET
 }  // namespace detail
+inline namespace NVM_TARGET {}  // namespace NVM_TARGET
 }  // namespace nvm

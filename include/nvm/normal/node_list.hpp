@@ -6,7 +6,10 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "nvm/core/target.hpp"
+
 namespace nvm::detail {
+inline namespace NVM_TARGET {
 
 /// For each set of bits in a byte: how many they are, and which, in ascending order.
 struct BitPositions {
@@ -58,4 +61,5 @@ class NodeList {
   std::size_t size_ = 0;
 };
 
+}  // namespace NVM_TARGET
 }  // namespace nvm::detail

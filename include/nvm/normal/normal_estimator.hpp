@@ -13,6 +13,7 @@
 #include "nvm/core/finite.hpp"
 #include "nvm/core/point_access.hpp"
 #include "nvm/core/require.hpp"
+#include "nvm/core/target.hpp"
 #include "nvm/normal/block_search.hpp"
 #include "nvm/normal/block_tree.hpp"
 #include "nvm/normal/cell_grid.hpp"
@@ -24,6 +25,7 @@
 #include "nvm/normal/spatial_sorter.hpp"
 
 namespace nvm {
+inline namespace NVM_TARGET {
 
 /// Estimates the normals of LiDAR scans (spec §2).
 ///
@@ -282,4 +284,5 @@ NormalResult estimate_normals(
   return estimator.estimate(points, viewpoints, executor);
 }
 
+}  // namespace NVM_TARGET
 }  // namespace nvm

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "nvm/core/require.hpp"
+#include "nvm/core/target.hpp"
 
 namespace nvm {
 
@@ -44,7 +45,7 @@ struct NormalOptions {
 
   /// Throws std::invalid_argument with the name, the value and the allowed range of the first bad
   /// member.
-  void validate() const {
+  NVM_SHARED void validate() const {
     require(max_range > 0.0 && max_range <= 1e4, "max_range", max_range, "above 0 to 10000 [m]");
     require(
         min_range >= 0.0 && min_range < max_range, "min_range", min_range, "0 to max_range [m]");

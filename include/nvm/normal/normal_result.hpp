@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "nvm/core/target.hpp"
+
 namespace nvm {
 
 /// What became of a point in normal estimation.
@@ -47,6 +49,8 @@ struct NormalResult {
   NormalStats stats;
 };
 
+inline namespace NVM_TARGET {
+
 inline NormalStats count_statuses(const std::vector<NormalStatus>& status) {
   constexpr std::size_t kStatuses = static_cast<std::size_t>(NormalStatus::kNotPlanar) + 1;
   std::size_t counts[kStatuses] = {};
@@ -65,4 +69,5 @@ inline NormalStats count_statuses(const std::vector<NormalStatus>& status) {
       count(NormalStatus::kNotPlanar)};
 }
 
+}  // namespace NVM_TARGET
 }  // namespace nvm

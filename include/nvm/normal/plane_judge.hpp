@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "nvm/core/target.hpp"
 #include "nvm/geometry/float_lanes.hpp"
 #include "nvm/geometry/moments.hpp"
 #include "nvm/geometry/symmetric_eigen.hpp"
@@ -13,6 +14,7 @@
 #include "nvm/normal/query_block.hpp"
 
 namespace nvm::detail {
+inline namespace NVM_TARGET {
 
 /// From the moments of neighbourhoods to normals or to the reasons why there are none (spec §2.3
 /// and §2.4).
@@ -65,4 +67,5 @@ class PlaneJudge {
   float min_neighbors_, max_linearity_, max_surface_variation_;
 };
 
+}  // namespace NVM_TARGET
 }  // namespace nvm::detail

@@ -9,10 +9,12 @@
 #include <utility>
 #include <vector>
 
+#include "nvm/core/target.hpp"
 #include "nvm/geometry/float_lanes.hpp"
 #include "nvm/normal/sorted_points.hpp"
 
 namespace nvm::detail {
+inline namespace NVM_TARGET {
 
 /// Squared length [m^2]: of the difference of two points, it is compared to the squared radius. A
 /// neighbour is a point with sq_length <= sq_radius, inclusive, whatever finds it.
@@ -65,4 +67,5 @@ struct BasicQueryBlock {
 
 using QueryBlock = BasicQueryBlock<FloatLanes>;
 
+}  // namespace NVM_TARGET
 }  // namespace nvm::detail

@@ -8,7 +8,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "nvm/core/target.hpp"
+
 namespace nvm::detail {
+inline namespace NVM_TARGET {
 
 /// A key and the index that it belongs to.
 struct KeyedIndex {
@@ -28,7 +31,7 @@ inline void radix_sort(
   scratch.resize(items.size());
   for (int pass = 0; pass < passes; ++pass) {
     const auto digit = [shift = pass * digit_bits, mask = digits - 1](const KeyedIndex& item) {
-      return (item.key >> shift) & mask;
+      return static_cast<std::size_t>((item.key >> shift) & mask);
     };
     std::array<std::uint32_t, kMaxDigits + 1> begin;
     std::fill_n(begin.begin(), digits + 1, 0U);
@@ -45,4 +48,5 @@ inline void radix_sort(
   }
 }
 
+}  // namespace NVM_TARGET
 }  // namespace nvm::detail

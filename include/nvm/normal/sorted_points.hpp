@@ -7,7 +7,10 @@
 #include <limits>
 #include <vector>
 
+#include "nvm/core/target.hpp"
+
 namespace nvm::detail {
+inline namespace NVM_TARGET {
 
 /// Points in an order in which those that follow each other lie near each other, as a structure of
 /// arrays: local coordinates [m], the squared radius of their neighbourhoods [m^2], and where each
@@ -36,4 +39,5 @@ struct SortedPoints {
   }
 };
 
+}  // namespace NVM_TARGET
 }  // namespace nvm::detail

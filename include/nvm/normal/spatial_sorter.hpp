@@ -9,11 +9,13 @@
 #include <limits>
 #include <vector>
 
+#include "nvm/core/target.hpp"
 #include "nvm/normal/local_points.hpp"
 #include "nvm/normal/radix_sort.hpp"
 #include "nvm/normal/sorted_points.hpp"
 
 namespace nvm::detail {
+inline namespace NVM_TARGET {
 
 /// Spreads the lowest 21 bits of `value` to every third bit.
 inline std::uint64_t spread_bits(std::uint64_t value) {
@@ -127,4 +129,5 @@ class SpatialSorter {
   std::vector<KeyedIndex> order_, scratch_;
 };
 
+}  // namespace NVM_TARGET
 }  // namespace nvm::detail

@@ -5,11 +5,13 @@
 #include <cstddef>
 #include <vector>
 
+#include "nvm/core/target.hpp"
 #include "nvm/normal/cluster.hpp"
 #include "nvm/normal/query_block.hpp"
 #include "nvm/normal/sorted_points.hpp"
 
 namespace nvm::detail {
+inline namespace NVM_TARGET {
 
 /// Where `point` is from the queries that have it within their radius; zero for the others.
 inline Offset offset_within_radius(
@@ -49,4 +51,5 @@ struct CellItems {
   }
 };
 
+}  // namespace NVM_TARGET
 }  // namespace nvm::detail

@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "nvm/core/require.hpp"
+#include "nvm/core/target.hpp"
 #include "nvm/geometry/pose.hpp"
 #include "nvm/registration/association.hpp"
 #include "nvm/registration/normal_equations.hpp"
@@ -31,7 +32,7 @@ struct AlignOptions {
 
   /// Throws std::invalid_argument with the name, the value and the allowed range of the first bad
   /// member.
-  void validate() const;
+  NVM_SHARED void validate() const;
 };
 
 enum class AlignStatus : std::uint8_t {
@@ -57,7 +58,7 @@ struct AlignResult {
   int degenerate_directions = 0;          ///< 6 minus the rank of what the scan tells
 
   /// Share of the scan's points that found their plane, 0 to 1.
-  double inlier_share() const {
+  NVM_SHARED double inlier_share() const {
     const std::size_t total = counts.total();
     return total == 0 ? 0.0 : static_cast<double>(counts.valid) / static_cast<double>(total);
   }

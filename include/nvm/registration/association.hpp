@@ -10,6 +10,7 @@
 
 #include "nvm/core/finite.hpp"
 #include "nvm/core/require.hpp"
+#include "nvm/core/target.hpp"
 #include "nvm/map/map_concept.hpp"
 #include "nvm/map/neighbor.hpp"
 #include "nvm/registration/plane.hpp"
@@ -32,7 +33,7 @@ struct AssociationOptions {
 
   /// Throws std::invalid_argument with the name, the value and the allowed range of the first bad
   /// member.
-  void validate() const;
+  NVM_SHARED void validate() const;
 };
 
 enum class AssociationStatus : std::uint8_t {
@@ -49,6 +50,8 @@ struct Association {
   double weight;           ///< 0 to 1, spec §4
   AssociationStatus status;
 };
+
+inline namespace NVM_TARGET {
 
 /// Finds the plane of one point (spec §4): position and unit normal in the map frame. A zero
 /// normal stands for "unknown": the plane is then not oriented (and a map with normals answers as
@@ -90,6 +93,8 @@ Association associate(
   result.status = AssociationStatus::kValid;
   return result;
 }
+
+}  // namespace NVM_TARGET
 
 inline void AssociationOptions::validate() const {
   require(neighbors >= 3 && neighbors <= kMaxNeighbors, "neighbors", neighbors, "3 to 64");

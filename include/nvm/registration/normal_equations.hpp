@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "nvm/core/target.hpp"
 #include "nvm/registration/association.hpp"
 #include "nvm/registration/point_to_plane.hpp"
 #include "nvm/registration/robust_kernel.hpp"
@@ -19,16 +20,16 @@ struct AssociationCounts {
   std::size_t no_plane = 0;
   std::size_t too_far = 0;
 
-  std::size_t total() const { return valid + too_few_neighbors + no_plane + too_far; }
+  NVM_SHARED std::size_t total() const { return valid + too_few_neighbors + no_plane + too_far; }
 
-  void add(AssociationStatus status) {
+  NVM_SHARED void add(AssociationStatus status) {
     valid += status == AssociationStatus::kValid;
     too_few_neighbors += status == AssociationStatus::kTooFewNeighbors;
     no_plane += status == AssociationStatus::kNoPlane;
     too_far += status == AssociationStatus::kTooFar;
   }
 
-  AssociationCounts& operator+=(const AssociationCounts& other) {
+  NVM_SHARED AssociationCounts& operator+=(const AssociationCounts& other) {
     valid += other.valid;
     too_few_neighbors += other.too_few_neighbors;
     no_plane += other.no_plane;
@@ -39,6 +40,8 @@ struct AssociationCounts {
 
 /// A 6 x 6 matrix over a PoseStep.
 using PoseMatrix = Eigen::Matrix<double, 6, 6, Eigen::DontAlign>;
+
+inline namespace NVM_TARGET {
 
 /// The linearised problem: minimise 1/2 s^T information s + gradient . s over the PoseStep s.
 /// Sums of it over parts of a scan, added in a fixed order, give the same bits whoever made them.
@@ -95,4 +98,5 @@ struct NormalEquations {
   }
 };
 
+}  // namespace NVM_TARGET
 }  // namespace nvm

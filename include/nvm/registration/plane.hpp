@@ -6,11 +6,13 @@
 #include <cstddef>
 #include <optional>
 
+#include "nvm/core/target.hpp"
 #include "nvm/geometry/moments.hpp"
 #include "nvm/geometry/symmetric_eigen.hpp"
 #include "nvm/map/neighbor.hpp"
 
 namespace nvm {
+inline namespace NVM_TARGET {
 
 /// A plane through map points.
 struct Plane {
@@ -52,4 +54,5 @@ inline std::optional<Plane> fit_plane(const Neighbor* neighbors, std::size_t cou
       deviation};
 }
 
+}  // namespace NVM_TARGET
 }  // namespace nvm

@@ -5,9 +5,11 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "nvm/core/target.hpp"
 #include "nvm/geometry/pose.hpp"
 
 namespace nvm {
+inline namespace NVM_TARGET {
 
 /// Change of a pose T_map_scan: (rotation [rad] in the scan frame, translation [m] in the map
 /// frame). DontAlign for the same reason as Pose.
@@ -32,4 +34,5 @@ inline PoseStep point_to_plane_jacobian(
   return jacobian;
 }
 
+}  // namespace NVM_TARGET
 }  // namespace nvm

@@ -9,10 +9,12 @@
 #include <cstddef>
 
 #include "nvm/core/finite.hpp"
+#include "nvm/core/target.hpp"
 #include "nvm/registration/normal_equations.hpp"
 #include "nvm/registration/point_to_plane.hpp"
 
 namespace nvm {
+inline namespace NVM_TARGET {
 
 /// The step that solves NormalEquations, and what the scan tells about each direction.
 struct PoseSolution {
@@ -56,4 +58,5 @@ inline PoseSolution solve(const NormalEquations& equations, double min_observabi
   return solution;
 }
 
+}  // namespace NVM_TARGET
 }  // namespace nvm

@@ -6,6 +6,7 @@
 
 #include "nvm/core/finite.hpp"
 #include "nvm/core/require.hpp"
+#include "nvm/core/target.hpp"
 
 namespace nvm {
 
@@ -22,7 +23,7 @@ struct RobustKernel {
   double scale = 0.05;
 
   /// rho'(e) / e, 0 to 1: the weight that makes e^2 / 2 descend like rho (iterative reweighting).
-  double weight(double residual) const {
+  NVM_SHARED double weight(double residual) const {
     const double ratio = std::abs(residual) / scale;
     switch (type) {
       case Type::kNone:
@@ -36,7 +37,7 @@ struct RobustKernel {
   }
 
   /// Throws std::invalid_argument when the scale is not positive.
-  void validate() const {
+  NVM_SHARED void validate() const {
     require(scale > 0.0 && detail::is_finite(scale), "kernel scale", scale, "positive [m]");
   }
 };

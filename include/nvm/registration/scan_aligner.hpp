@@ -11,6 +11,7 @@
 
 #include "nvm/core/executor.hpp"
 #include "nvm/core/point_access.hpp"
+#include "nvm/core/target.hpp"
 #include "nvm/geometry/pose.hpp"
 #include "nvm/map/map_concept.hpp"
 #include "nvm/registration/align_options.hpp"
@@ -20,6 +21,7 @@
 #include "nvm/registration/pose_solution.hpp"
 
 namespace nvm {
+inline namespace NVM_TARGET {
 
 /// Scan-to-map alignment: Gauss-Newton on the weighted point-to-plane residual of spec §4 with a
 /// robust kernel, associated anew in each iteration. Works with any model of the map concept.
@@ -139,4 +141,5 @@ class ScanAligner {
   std::vector<typename Map::QueryContext> contexts_;  // one per block
 };
 
+}  // namespace NVM_TARGET
 }  // namespace nvm

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "nvm/core/target.hpp"
 #include "nvm/map/map_options.hpp"
 #include "nvm/map/storage/lanes.hpp"
 #include "nvm/map/storage/lattice.hpp"
@@ -13,6 +14,7 @@
 #include "nvm/map/storage/stored_normal.hpp"
 
 namespace nvm::detail {
+inline namespace NVM_TARGET {
 
 /// The surface of a voxel that takes a normal.
 struct SurfaceChoice {
@@ -128,4 +130,5 @@ class Admission {
   SurfaceRule rule_;
 };
 
+}  // namespace NVM_TARGET
 }  // namespace nvm::detail

@@ -6,12 +6,14 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "nvm/core/target.hpp"
 #include "nvm/map/neighbor.hpp"
 #include "nvm/map/operations/candidates.hpp"
 #include "nvm/map/storage/lattice.hpp"
 #include "nvm/map/storage/voxel_storage.hpp"
 
 namespace nvm::detail {
+inline namespace NVM_TARGET {
 
 /// Turns what a query has found into neighbours in the map frame.
 class Answer {
@@ -53,4 +55,5 @@ class Answer {
   Eigen::Vector3d origin_;  // the query [steps]
 };
 
+}  // namespace NVM_TARGET
 }  // namespace nvm::detail

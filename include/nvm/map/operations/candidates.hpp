@@ -10,10 +10,12 @@
 #include <limits>
 #include <numeric>
 
+#include "nvm/core/target.hpp"
 #include "nvm/map/neighbor.hpp"
 #include "nvm/map/storage/lanes.hpp"
 
 namespace nvm::detail {
+inline namespace NVM_TARGET {
 
 /// The points that a query has found so far, in the order in which it met them, on the stack.
 class Candidates {
@@ -124,4 +126,5 @@ class Candidates {
   int count_ = 0;
 };
 
+}  // namespace NVM_TARGET
 }  // namespace nvm::detail

@@ -9,12 +9,14 @@
 #include <vector>
 
 #include "nvm/core/finite.hpp"
+#include "nvm/core/target.hpp"
 #include "nvm/map/map_options.hpp"
 #include "nvm/map/operations/traversal.hpp"
 #include "nvm/map/storage/lattice.hpp"
 #include "nvm/map/storage/voxel_storage.hpp"
 
 namespace nvm::detail {
+inline namespace NVM_TARGET {
 
 /// The points from `min` to `max` [m], inclusive.
 struct BoxRegion {
@@ -143,4 +145,5 @@ inline void erase_voxels_beyond(
   }
 }
 
+}  // namespace NVM_TARGET
 }  // namespace nvm::detail

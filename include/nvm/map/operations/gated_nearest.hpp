@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "nvm/core/finite.hpp"
+#include "nvm/core/target.hpp"
 #include "nvm/map/neighbor.hpp"
 #include "nvm/map/operations/answer.hpp"
 #include "nvm/map/operations/candidates.hpp"
@@ -19,6 +20,7 @@
 #include "nvm/map/storage/voxel_storage.hpp"
 
 namespace nvm::detail {
+inline namespace NVM_TARGET {
 
 /// What VoxelMap::nearest() is asked, but for the normal, and where the answer goes.
 struct NearestRequest {
@@ -62,4 +64,5 @@ std::size_t gated_nearest(
   return static_cast<std::size_t>(count);
 }
 
+}  // namespace NVM_TARGET
 }  // namespace nvm::detail

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "nvm/core/target.hpp"
 #include "nvm/map/insert_stats.hpp"
 #include "nvm/map/map_options.hpp"
 #include "nvm/map/operations/admission.hpp"
@@ -20,6 +21,7 @@
 #include "nvm/map/storage/voxel_storage.hpp"
 
 namespace nvm::detail {
+inline namespace NVM_TARGET {
 
 /// Puts points into the storage by the rules of spec §3.3 to §3.5: which voxel, which of its
 /// surfaces, whether there is room, and what has to go to make room.
@@ -242,4 +244,5 @@ class Insertion {
   InsertStats stats_;
 };
 
+}  // namespace NVM_TARGET
 }  // namespace nvm::detail

@@ -7,11 +7,13 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "nvm/core/target.hpp"
 #include "nvm/map/operations/point_block.hpp"
 #include "nvm/map/storage/voxel_cache.hpp"
 #include "nvm/map/storage/voxel_storage.hpp"
 
 namespace nvm::detail {
+inline namespace NVM_TARGET {
 
 /// Starts to load the voxels of a block that the cache does not know, level by level: a point in an
 /// unvisited place would otherwise wait for memory five times in a row.
@@ -84,4 +86,5 @@ class LookAhead {
   std::array<std::uint32_t, PointBlock::kSize> bricks_{};  // of the block's points
 };
 
+}  // namespace NVM_TARGET
 }  // namespace nvm::detail

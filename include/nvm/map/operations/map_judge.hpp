@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "nvm/core/target.hpp"
 #include "nvm/map/operations/admission.hpp"
 #include "nvm/map/operations/look_ahead.hpp"
 #include "nvm/map/operations/point_block.hpp"
@@ -15,6 +16,7 @@
 #include "nvm/map/storage/voxel_storage.hpp"
 
 namespace nvm::detail {
+inline namespace NVM_TARGET {
 
 /// What the map, as it is, makes of a point.
 struct Verdict {
@@ -74,4 +76,5 @@ class MapJudge {
   LookAhead look_ahead_;
 };
 
+}  // namespace NVM_TARGET
 }  // namespace nvm::detail

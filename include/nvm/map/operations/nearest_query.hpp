@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "nvm/core/target.hpp"
 #include "nvm/map/map_options.hpp"
 #include "nvm/map/operations/candidates.hpp"
 #include "nvm/map/storage/lanes.hpp"
@@ -14,6 +15,7 @@
 #include "nvm/map/storage/voxel_storage.hpp"
 
 namespace nvm::detail {
+inline namespace NVM_TARGET {
 
 /// Reads every surface and every point.
 struct NoGate {
@@ -232,4 +234,5 @@ class NearestQuery {
   std::array<std::array<std::int32_t, 2>, 3> sq_gap_;  // per axis: to the voxel below and above
 };
 
+}  // namespace NVM_TARGET
 }  // namespace nvm::detail

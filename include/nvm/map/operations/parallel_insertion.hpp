@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "nvm/core/target.hpp"
 #include "nvm/map/operations/admission.hpp"
 #include "nvm/map/operations/insertion.hpp"
 #include "nvm/map/operations/look_ahead.hpp"
@@ -16,6 +17,7 @@
 #include "nvm/map/storage/voxel_storage.hpp"
 
 namespace nvm::detail {
+inline namespace NVM_TARGET {
 
 /// Inserts points over an executor, with the result of inserting them one after the other, bit for
 /// bit.
@@ -106,4 +108,5 @@ class ParallelInsertion {
   std::vector<std::uint32_t> changed_;  // those voxels
 };
 
+}  // namespace NVM_TARGET
 }  // namespace nvm::detail

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "nvm/core/target.hpp"
 #include "nvm/geometry/pose.hpp"
 #include "nvm/map/storage/brick.hpp"
 #include "nvm/map/storage/lattice.hpp"
@@ -15,6 +16,7 @@
 #include "nvm/map/storage/voxel_cache.hpp"
 
 namespace nvm::detail {
+inline namespace NVM_TARGET {
 
 /// Up to 64 points on their way into a map, one array per quantity: transforming, flooring and
 /// rounding them in plain loops over arrays lets the compiler do four or eight at a time.
@@ -166,4 +168,5 @@ class PointBlock {
   Lane<Status> status_;
 };
 
+}  // namespace NVM_TARGET
 }  // namespace nvm::detail

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "nvm/core/target.hpp"
 #include "nvm/map/map_options.hpp"
 #include "nvm/map/storage/lanes.hpp"
 #include "nvm/map/storage/lattice.hpp"
@@ -12,6 +13,7 @@
 #include "nvm/map/storage/voxel_storage.hpp"
 
 namespace nvm::detail {
+inline namespace NVM_TARGET {
 
 /// Moves stored points to the mean plane of the points that were too close to be stored beside them
 /// (MapOptions::max_merged_points). In integers, so that maps do not differ between processors.
@@ -100,4 +102,5 @@ class PointMerger {
   VoxelStorage& storage_;
 };
 
+}  // namespace NVM_TARGET
 }  // namespace nvm::detail

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "nvm/core/target.hpp"
 #include "nvm/map/storage/brick.hpp"
 #include "nvm/map/storage/voxel_storage.hpp"
 
@@ -17,7 +18,7 @@ namespace nvm::detail {
 class VoxelQueryContext {
  public:
   /// Comes to a brick, which is one of the latest more often than not.
-  void enter(const VoxelStorage& storage, const VoxelIndex& index) noexcept {
+  NVM_SHARED void enter(const VoxelStorage& storage, const VoxelIndex& index) noexcept {
     const IndexKey key = index_key(index);
     std::uint32_t& remembered = bricks_[slot(index)];
     is_new_place_ = !storage.is_brick(remembered, key);
@@ -28,13 +29,13 @@ class VoxelQueryContext {
     brick_ = remembered;
   }
   /// The brick, or kNone.
-  std::uint32_t brick() const noexcept { return brick_; }
-  bool is_new_place() const noexcept { return is_new_place_; }
+  NVM_SHARED std::uint32_t brick() const noexcept { return brick_; }
+  NVM_SHARED bool is_new_place() const noexcept { return is_new_place_; }
 
   /// A squared distance that probably holds `wanted` neighbours, at most `limit`: a query that
   /// looks no farther skips most of the 27 voxels, and one that finds too few looks again without
   /// it.
-  std::int32_t guess(int wanted, std::int32_t limit) const noexcept {
+  NVM_SHARED std::int32_t guess(int wanted, std::int32_t limit) const noexcept {
     if (wanted != wanted_) {
       return limit;
     }
@@ -45,7 +46,7 @@ class VoxelQueryContext {
   }
 
   /// Learns the squared distance of the last of `wanted` neighbours.
-  void learn(int wanted, std::int32_t sq_distance) noexcept {
+  NVM_SHARED void learn(int wanted, std::int32_t sq_distance) noexcept {
     const auto latest = static_cast<float>(sq_distance);
     mean_sq_distance_ =
         wanted == wanted_ ? kMemory * mean_sq_distance_ + (1.0F - kMemory) * latest : latest;
@@ -60,7 +61,7 @@ class VoxelQueryContext {
   static constexpr std::uint32_t kSlots = 64;
 
   /// Strides that spread what a scan's rings see over the slots.
-  static std::uint32_t slot(const VoxelIndex& brick) noexcept {
+  NVM_SHARED static std::uint32_t slot(const VoxelIndex& brick) noexcept {
     const std::uint32_t mixed = static_cast<std::uint32_t>(brick.x()) +
                                 static_cast<std::uint32_t>(brick.y()) * 5U +
                                 static_cast<std::uint32_t>(brick.z()) * 29U;

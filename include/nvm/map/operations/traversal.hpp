@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "nvm/core/finite.hpp"
+#include "nvm/core/target.hpp"
 #include "nvm/map/map_point.hpp"
 #include "nvm/map/neighbor.hpp"
 #include "nvm/map/storage/lattice.hpp"
@@ -15,6 +17,7 @@
 #include "nvm/map/storage/voxel_storage.hpp"
 
 namespace nvm::detail {
+inline namespace NVM_TARGET {
 
 /// Like VoxelStorage::for_each_voxel, for the bricks of which a part lies between the corners `min`
 /// and `max` [m], neither of which has a NaN, and maybe others.
@@ -95,6 +98,14 @@ inline int side_of(const VoxelStorage& storage, PointId id) {
   return side;
 }
 
+/// A visitor that appends to `items`. (A lambda in a shared class would have one name for every
+/// target.)
+template <class Item>
+struct Collector {
+  std::vector<Item>& items;
+  void operator()(const Item& item) const { items.push_back(item); }
+};
+
 template <class Visitor>
 void for_each_point(const VoxelStorage& storage, const Lattice& lattice, Visitor&& visit) {
   storage.for_each_voxel([&](std::uint32_t front, const VoxelIndex& index) {
@@ -167,4 +178,5 @@ inline MapStats count_all(const VoxelStorage& storage) {
   return stats;
 }
 
+}  // namespace NVM_TARGET
 }  // namespace nvm::detail

@@ -5,10 +5,12 @@
 #include <array>
 #include <cstdint>
 
+#include "nvm/core/target.hpp"
 #include "nvm/map/storage/lattice.hpp"
 #include "nvm/map/storage/pool.hpp"
 
 namespace nvm::detail {
+inline namespace NVM_TARGET {
 
 // 4 x 4 x 4 voxels form a brick: the unit of the hash table. A 64-bit mask says which of its voxels
 // exist and links lead to the bricks around it, so that the 27 voxels around a point cost 1 to 8
@@ -72,4 +74,5 @@ struct alignas(64) Brick {
   bool has(int cell) const { return (occupied >> cell & 1U) != 0; }
 };
 
+}  // namespace NVM_TARGET
 }  // namespace nvm::detail

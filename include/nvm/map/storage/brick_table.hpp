@@ -7,10 +7,12 @@
 #include <cstdint>
 #include <utility>
 
+#include "nvm/core/target.hpp"
 #include "nvm/map/storage/brick.hpp"
 #include "nvm/map/storage/pool.hpp"
 
 namespace nvm::detail {
+inline namespace NVM_TARGET {
 
 /// The key of a brick with its hash, for callers that look more than once.
 struct BrickAddress {
@@ -178,4 +180,5 @@ class BrickTable {
   std::array<BrickTableShard, kShards> shards_;
 };
 
+}  // namespace NVM_TARGET
 }  // namespace nvm::detail

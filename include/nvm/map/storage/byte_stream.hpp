@@ -11,7 +11,10 @@
 #include <utility>
 #include <vector>
 
+#include "nvm/core/target.hpp"
+
 namespace nvm::detail {
+inline namespace NVM_TARGET {
 
 template <class T>
 using BitsOf = std::conditional_t<
@@ -93,4 +96,5 @@ inline std::uint32_t crc32(const std::uint8_t* bytes, std::size_t size) {
   return ~crc;
 }
 
+}  // namespace NVM_TARGET
 }  // namespace nvm::detail

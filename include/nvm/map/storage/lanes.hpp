@@ -7,6 +7,7 @@
 #include <cstring>
 #include <limits>
 
+#include "nvm/core/target.hpp"
 #include "nvm/map/storage/point_chunk.hpp"
 
 #if defined(__AVX2__)
@@ -20,6 +21,7 @@
 // in instructions. Everything is exact integer arithmetic, so every variant gives the same bits
 // (tested against plain loops).
 namespace nvm::detail {
+inline namespace NVM_TARGET {
 
 // Passed by reference only: by value their ABI would depend on -march.
 using IntLanes = std::int32_t __attribute__((vector_size(4 * kLanes)));
@@ -201,4 +203,5 @@ inline constexpr auto kSetBits = [] {
   return lanes_above(reinterpret_cast<ShortLanes>(dots), static_cast<std::int16_t>(threshold));
 }
 
+}  // namespace NVM_TARGET
 }  // namespace nvm::detail

@@ -7,8 +7,10 @@
 #include <cstdint>
 
 #include "nvm/core/finite.hpp"
+#include "nvm/core/target.hpp"
 
 namespace nvm::detail {
+inline namespace NVM_TARGET {
 
 // Positions are kept on a lattice of 2^13 steps per voxel (37 um at 0.3 m), so that distances are
 // exact integers: the same on every processor, whatever its vector width, and for any number of
@@ -131,4 +133,5 @@ inline std::int32_t step_in_voxel(std::int16_t wrapped) {
   return static_cast<std::uint16_t>(wrapped) & (kStepsPerVoxel - 1);
 }
 
+}  // namespace NVM_TARGET
 }  // namespace nvm::detail

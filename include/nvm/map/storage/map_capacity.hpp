@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "nvm/core/target.hpp"
 #include "nvm/map/map_options.hpp"
 #include "nvm/map/storage/brick.hpp"
 #include "nvm/map/storage/brick_table.hpp"
@@ -14,6 +15,7 @@
 #include "nvm/map/storage/recency.hpp"
 
 namespace nvm::detail {
+inline namespace NVM_TARGET {
 
 inline constexpr std::size_t kMaxChunks = std::size_t{1}
                                           << 29;  // a PointId is a chunk and a lane in 32 bits
@@ -68,4 +70,5 @@ inline MapCapacity map_capacity(const MapOptions& options) {
   return capacity;
 }
 
+}  // namespace NVM_TARGET
 }  // namespace nvm::detail

@@ -6,12 +6,14 @@
 #include <cstdint>
 #include <limits>
 
+#include "nvm/core/target.hpp"
 #include "nvm/map/storage/lattice.hpp"
 #include "nvm/map/storage/pool.hpp"
 #include "nvm/map/storage/principal_direction.hpp"
 #include "nvm/map/storage/stored_normal.hpp"
 
 namespace nvm::detail {
+inline namespace NVM_TARGET {
 
 inline constexpr int kLanes = 8;  // points in a chunk
 
@@ -69,4 +71,5 @@ struct NormalChunk {
   StoredNormal get(int lane) const { return {x[lane], y[lane], z[lane]}; }
 };
 
+}  // namespace NVM_TARGET
 }  // namespace nvm::detail

@@ -12,8 +12,10 @@
 #include <utility>
 
 #include "nvm/core/assert.hpp"
+#include "nvm/core/target.hpp"
 
 namespace nvm::detail {
+inline namespace NVM_TARGET {
 
 /// "No element", "no chunk", "no voxel".
 inline constexpr std::uint32_t kNone = 0xffffffffU;
@@ -110,4 +112,5 @@ class IndexAllocator {
   std::uint32_t free_ = kNone;
 };
 
+}  // namespace NVM_TARGET
 }  // namespace nvm::detail

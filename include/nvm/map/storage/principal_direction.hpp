@@ -7,9 +7,11 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "nvm/core/target.hpp"
 #include "nvm/map/storage/stored_normal.hpp"
 
 namespace nvm::detail {
+inline namespace NVM_TARGET {
 
 /// A symmetric 3 x 3 matrix and a vector of integers, for directions only: their scale does not
 /// matter.
@@ -159,4 +161,5 @@ inline StoredNormal principal_direction(const NormalSums& sums) {
   return store_direction({sign * eigenvector.x, sign * eigenvector.y, sign * eigenvector.z});
 }
 
+}  // namespace NVM_TARGET
 }  // namespace nvm::detail

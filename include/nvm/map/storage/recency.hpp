@@ -9,9 +9,11 @@
 #include <vector>
 
 #include "nvm/core/assert.hpp"
+#include "nvm/core/target.hpp"
 #include "nvm/map/storage/pool.hpp"
 
 namespace nvm::detail {
+inline namespace NVM_TARGET {
 
 /// The order in which voxels were last used, for exact least-recently-used eviction (spec §3.5).
 ///
@@ -282,4 +284,5 @@ class Recency {
   std::uint32_t count_ = 0;
 };
 
+}  // namespace NVM_TARGET
 }  // namespace nvm::detail

@@ -8,7 +8,10 @@
 #include <cstdint>
 #include <cstring>
 
+#include "nvm/core/target.hpp"
+
 namespace nvm::detail {
+inline namespace NVM_TARGET {
 
 /// A unit normal in 3 bytes, accurate to 0.4 degrees: it tells sides apart and orients exported
 /// maps; planes are fitted to positions. The zero vector stands for "no normal".
@@ -64,4 +67,5 @@ inline int dot_threshold(double angle) {
   return static_cast<int>(std::floor(std::cos(angle) * kNormalScale * kNormalScale + 1e-9));
 }
 
+}  // namespace NVM_TARGET
 }  // namespace nvm::detail

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "nvm/core/assert.hpp"
+#include "nvm/core/target.hpp"
 #include "nvm/map/storage/lanes.hpp"
 #include "nvm/map/storage/map_capacity.hpp"
 #include "nvm/map/storage/point_chunk.hpp"
@@ -15,6 +16,7 @@
 #include "nvm/map/storage/principal_direction.hpp"
 
 namespace nvm::detail {
+inline namespace NVM_TARGET {
 
 /// The chunks of all surfaces, with their normals and principal directions. Which voxel a surface
 /// belongs to is VoxelStorage's business.
@@ -221,4 +223,5 @@ class SurfaceStorage {
   std::size_t point_count_ = 0;
 };
 
+}  // namespace NVM_TARGET
 }  // namespace nvm::detail

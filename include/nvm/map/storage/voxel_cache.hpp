@@ -6,10 +6,12 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "nvm/core/target.hpp"
 #include "nvm/map/storage/brick.hpp"
 #include "nvm/map/storage/pool.hpp"
 
 namespace nvm::detail {
+inline namespace NVM_TARGET {
 
 /// Remembers where recently touched voxels are: a scan falls into the same few voxels again and
 /// again. Direct-mapped.
@@ -51,4 +53,5 @@ class VoxelCache {
   std::uint32_t insertion_ = 0;
 };
 
+}  // namespace NVM_TARGET
 }  // namespace nvm::detail

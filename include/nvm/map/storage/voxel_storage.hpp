@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "nvm/core/assert.hpp"
+#include "nvm/core/target.hpp"
 #include "nvm/map/storage/brick.hpp"
 #include "nvm/map/storage/brick_table.hpp"
 #include "nvm/map/storage/lattice.hpp"
@@ -16,6 +17,7 @@
 #include "nvm/map/storage/surface_storage.hpp"
 
 namespace nvm::detail {
+inline namespace NVM_TARGET {
 
 /// Where things lie: bricks of voxels, chunks of points, and the order of use. Keeps the links
 /// between them right; knows no rule of what belongs where. docs/map_layout.md has the drawing.
@@ -282,4 +284,5 @@ class VoxelStorage : public SurfaceStorage {
   RawArray<Brick> bricks_;
 };
 
+}  // namespace NVM_TARGET
 }  // namespace nvm::detail
