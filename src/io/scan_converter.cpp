@@ -95,7 +95,7 @@ std::vector<std::string> ScanConverter::notes() const {
   const std::string prefix = source_ + ": ";
   if (times_.base != PointTimes::Base::kNone) {
     notes.push_back(prefix + "point times: field '" + field_ + "' " + times_.description);
-  } else if (has_learnt_) {
+  } else if (!source_.empty()) {
     std::string note =
         prefix + (times_.problem.empty() ? "there are no point times"
                                          : "the point times '" + field_ + "' " + times_.problem);
