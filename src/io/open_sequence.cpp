@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "io/file.hpp"
+#include "io/message_pipe.hpp"
 #include "io/natural_order.hpp"
 #include "io/nvm_sequence_reader.hpp"
 #include "io/ros_bag_reader.hpp"
@@ -63,8 +64,11 @@ std::unique_ptr<SequenceReader> open_sequence(
   if (!std::filesystem::exists(path)) {
     fail(path, "does not exist");
   }
+  if (std::filesystem::is_fifo(path)) {
+    return open_message_pipe(path, options);
+  }
   if (is_ros2_bag(path)) {
-    fail(path, "is a ROS 2 bag: convert it first with 'scripts/convert_bag.py BAG FOLDER'");
+    fail(path, "is a ROS 2 bag: the Python package's nvm reads it (docs/python.md: pip install .)");
   }
   if (std::filesystem::is_directory(path)) {
     return open_folder(path, options);

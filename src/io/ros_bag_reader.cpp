@@ -5,304 +5,74 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <deque>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
-#include "io/file.hpp"
-#include "io/imu_file.hpp"
-#include "io/imu_gap_monitor.hpp"
-#include "io/left_out.hpp"
+#include "io/message_sequence.hpp"
 #include "io/ros_bags.hpp"
-#include "io/ros_messages.hpp"
-#include "io/scan_converter.hpp"
 
 namespace nvm::io {
 namespace {
 
-constexpr double kStandardGravity = 9.80665;
-constexpr char kImuType[] = "sensor_msgs/Imu";
-constexpr char kCloudType[] = "sensor_msgs/PointCloud2";
-constexpr char kLivoxType[] = "livox_ros_driver/CustomMsg";
-constexpr char kLivox2Type[] = "livox_ros_driver2/CustomMsg";
-
-bool is_livox(const std::string& type) { return type == kLivoxType || type == kLivox2Type; }
-bool is_cloud(const std::string& type) { return type == kCloudType || is_livox(type); }
-bool is_imu(const std::string& type) { return type == kImuType; }
-
-/// The factor that makes m/s^2 of accelerations of such lengths.
-double accel_scale(std::vector<double> norms, AccelUnit unit) {
-  constexpr double kLimit = 3.0;  // between 1 g and 9.8 m/s^2 on a logarithmic scale
-  if (unit == AccelUnit::kAutomatic && !norms.empty()) {
-    std::sort(norms.begin(), norms.end());
-    unit = norms[norms.size() / 2] < kLimit ? AccelUnit::kStandardGravity
-                                            : AccelUnit::kMetrePerSquareSecond;
-  }
-  return unit == AccelUnit::kStandardGravity ? kStandardGravity : 1.0;
-}
-
-PointTimeOptions point_time_options(const SequenceOptions& options) {
-  PointTimeOptions times;
-  times.field = options.point_time_field;
-  times.unit = options.point_time_unit;
-  times.stamp = options.stamp;
-  times.is_raw = true;
-  return times;
-}
-
-class RosBag : public SequenceReader {
+/// The messages of ROS 1 bags by their index.
+class RosBagSource : public MessageSource {
  public:
-  RosBag(const std::vector<std::string>& paths, const SequenceOptions& options)
-      : path_(paths.front()), bags_(paths) {
-    try {
-      open(options);
-    } catch (const std::runtime_error& error) {
-      fail(path_, error.what());
-    }
-    if (paths.size() > 1) {
-      info_.format += fmt::format(" in {} files", paths.size());
-    }
+  explicit RosBagSource(const std::vector<std::string>& paths)
+      : bags_(paths), file_count_(paths.size()) {}
+
+  std::string format() const override {
+    return file_count_ > 1 ? fmt::format("ROS 1 bag in {} files", file_count_) : "ROS 1 bag";
   }
 
-  const SequenceInfo& info() const override {
-    info_.skipped_scans = bad_clouds_.count();
-    info_.skipped_imu_samples = bad_imu_.count();
-    info_.notes.resize(fixed_notes_);
-    const auto notes = converter_.notes();
-    info_.notes.insert(info_.notes.end(), notes.begin(), notes.end());
-    for (const auto& note :
-         {bad_clouds_.note(),
-          bad_imu_.note(),
-          clocks_.cloud.jump_note("clouds"),
-          clocks_.imu.jump_note("IMU messages"),
-          gaps_.summary()}) {
-      if (note) {
-        info_.notes.push_back(*note);
-      }
+  std::vector<std::string> problems() const override { return bags_.problems(); }
+
+  std::vector<MessageTopic> topics() const override { return bags_.topics(); }
+
+  std::vector<RecordedMessage> first(const std::string& topic, std::size_t count) override {
+    std::vector<RecordedMessage> found;
+    std::vector<BagMessage> messages = bags_.messages(topic);
+    sort_by_time(messages);
+    for (std::size_t i = 0; i < std::min(count, messages.size()); ++i) {
+      found.push_back(recorded(messages[i]));
     }
-    return info_;
+    return found;
   }
 
-  std::optional<lio::Scan> next_scan() override {
-    while (scans_.empty() && advance()) {
+  void select(const std::vector<std::string>& topics) override {
+    for (const std::string& topic : topics) {
+      const std::vector<BagMessage> messages = bags_.messages(topic);
+      messages_.insert(messages_.end(), messages.begin(), messages.end());
     }
-    if (scans_.empty()) {
-      return std::nullopt;
-    }
-    lio::Scan scan = std::move(scans_.front());
-    scans_.pop_front();
-    return scan;
+    sort_by_time(messages_);
   }
 
-  std::vector<lio::ImuSample> imu_until(double time) override {
-    // With a limit to the scans read ahead: a topic that ended early must not fill the memory.
-    constexpr std::size_t kMaxScansAhead = 20;
-    while (info_.has_imu && previous_imu_ <= time && scans_.size() < kMaxScansAhead && advance()) {
-    }
-    const auto end = std::find_if(
-        imu_.begin(), imu_.end(), [time](const auto& sample) { return sample.time > time; });
-    std::vector<lio::ImuSample> samples(imu_.begin(), end);
-    imu_.erase(imu_.begin(), end);
-    return samples;
+  std::optional<RecordedMessage> next() override {
+    return next_ < messages_.size() ? std::optional(recorded(messages_[next_++])) : std::nullopt;
   }
 
  private:
-  void open(const SequenceOptions& options) {
-    info_.notes = bags_.problems();
-    const std::string lidar = choose_topic("lidar", bags_.topics(is_cloud), options.lidar_topic);
-    const std::string imu = choose_topic("IMU", bags_.topics(is_imu), options.imu_topic);
-    if (lidar.empty()) {
-      refuse_without_clouds();
-    }
-    messages_ = bags_.messages(lidar, is_cloud);
-    std::vector<BagMessage> imu_messages = bags_.messages(imu, is_imu);
-    info_.format = "ROS 1 bag";
-    info_.scan_count = messages_.size();
-    info_.has_imu = !imu_messages.empty();
-    sort_by_time(messages_);
-    sort_by_time(imu_messages);
-    const std::vector<CloudMessage> clouds = first_clouds(lidar);
-    std::vector<MessageTime> cloud_times;
-    for (const CloudMessage& cloud : clouds) {
-      cloud_times.push_back({cloud.stamp, cloud.record_time});
-    }
-    clocks_ =
-        choose_clocks(cloud_times, inspect_imu(imu_messages, options.accel_unit), options.clock);
-    info_.notes.insert(info_.notes.end(), clocks_.notes.begin(), clocks_.notes.end());
-    learn(clouds, options);
-    messages_.insert(messages_.end(), imu_messages.begin(), imu_messages.end());
-    sort_by_time(messages_);
-    fixed_notes_ = info_.notes.size();
-  }
-
-  [[noreturn]] void refuse_without_clouds() const {
-    const auto topics = bags_.all_topics();
-    std::string problem = fmt::format(
-        "has no topic with PointCloud2 or CustomMsg messages; there are: {}",
-        topics.empty() ? "no topics at all" : fmt::format("{}", fmt::join(topics, ", ")));
-    if (problem.find("acket") != std::string::npos) {
-      problem += "; make clouds of packets with the sensor's driver, and record those";
-    }
-    for (const std::string& note : info_.notes) {
-      problem += "; " + note;
-    }
-    throw std::runtime_error(problem);
-  }
-
-  /// The wanted topic, or the first one; empty when there is none.
-  std::string choose_topic(
-      const char* kind, const std::vector<std::string>& topics, const std::string& wanted) {
-    const std::string list = fmt::format("{}", fmt::join(topics, ", "));
-    if (!wanted.empty() && std::find(topics.begin(), topics.end(), wanted) == topics.end()) {
-      throw std::runtime_error(
-          fmt::format("has no {} topic '{}'; there are: {}", kind, wanted, list));
-    }
-    if (wanted.empty() && topics.size() > 1) {
-      info_.notes.push_back(
-          fmt::format("{} topic {} is read, out of {}", kind, topics.front(), list));
-    }
-    return !wanted.empty() || topics.empty() ? wanted : topics.front();
-  }
-
-  std::vector<MessageTime> inspect_imu(const std::vector<BagMessage>& messages, AccelUnit unit) {
-    constexpr std::size_t kCount = 100;
-    std::vector<double> norms;
-    std::vector<MessageTime> times;
-    for (const BagMessage& message : messages) {
-      if (times.size() == kCount) {
-        break;
-      }
-      try {
-        const lio::ImuSample sample = read_imu(bags_.bytes(message));
-        norms.push_back(sample.accel.norm());
-        times.push_back({sample.time, message.entry.time});
-      } catch (const std::runtime_error&) {
-        continue;  // advance() counts it
-      }
-    }
-    accel_scale_ = accel_scale(std::move(norms), unit);
-    if (accel_scale_ != 1.0) {
-      info_.notes.emplace_back("the IMU measures in g: accelerations are multiplied by 9.80665");
-    }
-    return times;
-  }
-
-  /// The first clouds, over which it is judged how they are dated, as any one may be bad.
-  std::vector<CloudMessage> first_clouds(const std::string& topic) {
-    constexpr std::size_t kCount = 20;
-    std::vector<CloudMessage> clouds;
-    for (const BagMessage& message : messages_) {
-      if (clouds.size() == kCount) {
-        break;
-      }
-      try {
-        clouds.push_back(read_cloud(message));
-      } catch (const std::runtime_error&) {
-        continue;  // advance() counts it
-      }
-      clouds.back().records.source = topic;
-      clouds.back().record_time = message.entry.time;
-    }
-    return clouds;
-  }
-
-  void learn(std::vector<CloudMessage> clouds, const SequenceOptions& options) {
-    PointTimeOptions times = point_time_options(options);
-    if (clocks_.cloud.uses_record() && times.stamp == StampMeaning::kAutomatic) {
-      times.stamp = StampMeaning::kEnd;  // a message is recorded when it is complete
-    }
-    for (CloudMessage& cloud : clouds) {
-      cloud.stamp = clocks_.cloud.uses_record() ? cloud.record_time : cloud.stamp;
-      cloud.record_time -= std::min(clocks_.imu.uses_record() ? 0.0 : clocks_.imu.offset(), 0.0);
-    }
-    converter_ = ScanConverter(times);
-    converter_.learn(clouds);
-    info_.has_point_times = converter_.has_point_times();
-    info_.origin = converter_.origin();
-  }
-
-  CloudMessage read_cloud(const BagMessage& message) {
-    const std::string_view bytes = bags_.bytes(message);
-    return is_livox(bags_.connection(message).type) ? read_livox_custom(bytes)
-                                                    : read_point_cloud2(bytes);
-  }
-
-  /// Reads one message; false at the end. A bad one is counted and left out.
-  bool advance() {
-    if (next_ == messages_.size()) {
-      return false;
-    }
-    const BagMessage& message = messages_[next_++];
+  RecordedMessage recorded(const BagMessage& message) {
     const RosBagConnection& connection = bags_.connection(message);
-    const bool is_imu_message = is_imu(connection.type);
+    RecordedMessage result{connection.topic, connection.type, message.entry.time, {}, {}};
     try {
-      is_imu_message ? take_imu(message) : take_cloud(message);
+      result.bytes = bags_.bytes(message);
     } catch (const std::runtime_error& error) {
-      (is_imu_message ? bad_imu_ : bad_clouds_)
-          .add(
-              fmt::format("{} at {:.6f} s {}", connection.topic, message.entry.time, error.what()));
+      result.problem = error.what();
     }
-    return true;
+    return result;
   }
 
-  void take_cloud(const BagMessage& message) {
-    const CloudMessage cloud = read_cloud(message);
-    const auto stamp = clocks_.cloud.date({cloud.stamp, message.entry.time});
-    if (!stamp) {
-      refuse_time(cloud.stamp);
-    }
-    lio::Scan scan = converter_.convert(cloud.records, *stamp);
-    if (scan.t_begin <= previous_scan_) {
-      refuse_time(cloud.stamp);
-    }
-    previous_scan_ = scan.t_begin;
-    scans_.push_back(std::move(scan));
-  }
-
-  void take_imu(const BagMessage& message) {
-    lio::ImuSample sample = read_imu(bags_.bytes(message));
-    sample.accel *= accel_scale_;
-    if (const auto problem = problem_of(sample)) {
-      throw std::runtime_error(*problem);
-    }
-    const auto time = clocks_.imu.date({sample.time, message.entry.time});
-    if (!time || *time <= previous_imu_) {
-      refuse_time(sample.time);
-    }
-    sample.time = previous_imu_ = *time;
-    gaps_.add(sample.time);
-    imu_.push_back(sample);
-  }
-
-  [[noreturn]] static void refuse_time(double stamp) {
-    throw std::runtime_error(
-        fmt::format("(stamp {:.6f} s) repeats, is late or jumps in time", stamp));
-  }
-
-  std::string path_;
   RosBags bags_;
-  std::vector<BagMessage> messages_;  ///< of both topics in order of recording
+  std::size_t file_count_;
+  std::vector<BagMessage> messages_;  ///< selected, in order of recording
   std::size_t next_ = 0;
-  mutable SequenceInfo info_;
-  std::size_t fixed_notes_ = 0;  ///< the notes before those that change while reading
-  ScanConverter converter_;
-  Clocks clocks_;
-  LeftOut bad_clouds_{"clouds are"};
-  LeftOut bad_imu_{"IMU messages are"};
-  double accel_scale_ = 1.0;
-  std::deque<lio::Scan> scans_;     ///< read, not handed out
-  std::deque<lio::ImuSample> imu_;  ///< read, not handed out
-  double previous_scan_ = -std::numeric_limits<double>::infinity();
-  double previous_imu_ = -std::numeric_limits<double>::infinity();
-  ImuGapMonitor gaps_;
 };
 
 }  // namespace
 
 std::unique_ptr<SequenceReader> open_ros_bags(
     const std::vector<std::string>& paths, const SequenceOptions& options) {
-  return std::make_unique<RosBag>(paths, options);
+  return read_messages(paths.front(), std::make_unique<RosBagSource>(paths), options);
 }
 
 }  // namespace nvm::io

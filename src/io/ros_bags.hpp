@@ -5,11 +5,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <deque>
-#include <set>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "io/message_source.hpp"
 #include "io/ros_bag_file.hpp"
 
 namespace nvm::io {
@@ -40,41 +41,37 @@ class RosBags {
     return bags_[message.bag].message(message.entry);
   }
 
-  /// "topic (type)" of all topics.
-  std::set<std::string> all_topics() const {
-    std::set<std::string> topics;
+  /// In order of appearance; one for each type of a topic.
+  std::vector<MessageTopic> topics() const {
+    std::vector<MessageTopic> topics;
     for (const RosBagFile& bag : bags_) {
-      for (const auto& [id, connection] : bag.connections()) {
-        topics.insert(connection.topic + " (" + connection.type + ")");
+      std::map<std::uint32_t, std::size_t> counts;
+      for (const RosBagEntry& entry : bag.entries()) {
+        ++counts[entry.connection];
       }
-    }
-    return topics;
-  }
-
-  /// The topics with messages of an accepted type, in order of appearance.
-  std::vector<std::string> topics(bool (*accepts)(const std::string&)) const {
-    std::vector<std::string> topics;
-    for (const RosBagFile& bag : bags_) {
       for (const auto& [id, connection] : bag.connections()) {
-        if (accepts(connection.type) &&
-            std::find(topics.begin(), topics.end(), connection.topic) == topics.end()) {
-          topics.push_back(connection.topic);
+        const auto is_same = [&c = connection](const MessageTopic& topic) {
+          return topic.name == c.topic && topic.type == c.type;
+        };
+        const auto known = std::find_if(topics.begin(), topics.end(), is_same);
+        if (known != topics.end()) {
+          known->count += counts[id];
+        } else {
+          topics.push_back({connection.topic, connection.type, counts[id]});
         }
       }
     }
     return topics;
   }
 
-  /// The messages of accepted types on a topic.
-  std::vector<BagMessage> messages(
-      const std::string& topic, bool (*accepts)(const std::string&)) const {
+  /// The messages of a topic, by file.
+  std::vector<BagMessage> messages(const std::string& topic) const {
     std::vector<BagMessage> messages;
     for (std::size_t i = 0; i < bags_.size(); ++i) {
       const auto& connections = bags_[i].connections();
       for (const RosBagEntry& entry : bags_[i].entries()) {
         const auto connection = connections.find(entry.connection);
-        if (connection != connections.end() && connection->second.topic == topic &&
-            accepts(connection->second.type)) {
+        if (connection != connections.end() && connection->second.topic == topic) {
           messages.push_back({i, entry});
         }
       }
@@ -84,7 +81,6 @@ class RosBags {
 
   /// What is wrong with whole files, for the user.
   std::vector<std::string> problems() const {
-    /// What is wrong with whole files, for the user.
     std::vector<std::string> problems;
     for (const RosBagFile& bag : bags_) {
       if (!bag.problem().empty()) {
