@@ -2,7 +2,9 @@
 # Builds the wheel as a user's pip does, installs it in an empty virtual environment and tests it there.
 set -euo pipefail
 source "$(dirname "$0")/environment.sh"
+root=$PWD
 folder=build/python
+root=$PWD
 rm -rf "$folder" && mkdir -p "$folder"
 python3 -m venv "$folder/venv"
 python="$PWD/$folder/venv/bin/python"
@@ -17,4 +19,11 @@ begin = time.perf_counter()
 subprocess.run([sys.executable, "-c", "import nvm"], check=True)
 print(f"import nvm: {time.perf_counter() - begin:.2f} s, the interpreter included")'
 cd python/tests # not the root, whose folder python/nvm must not stand in for the installed package
+# C++ that was built before is what Python must agree with.
+for build in "$root/build/dev" "$root/build/release"; do
+  if [[ -x $build/tests/io/print_sequence && -x $build/bin/nvm ]]; then
+    export NVM_PRINT_SEQUENCE="$build/tests/io/print_sequence" NVM_PROGRAM="$build/bin/nvm"
+    break
+  fi
+done
 "$python" -m pytest

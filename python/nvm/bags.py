@@ -151,10 +151,11 @@ class Recording:
     def messages(self, topics: list[str]) -> Iterator[Message]:
         """The messages of the topics in the order of recording."""
         for connection, time, raw in self._messages(lambda c: c.topic in topics):
+            seconds, nanoseconds = divmod(time, 10**9)
             yield Message(
                 connection.topic,
                 connection.msgtype.replace("/msg/", "/"),
-                time * 1e-9,
+                seconds + 1e-9 * nanoseconds,  # the bits that ROS makes of it
                 self._as_ros1(raw, connection.msgtype),
             )
 

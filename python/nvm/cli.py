@@ -27,6 +27,15 @@ def info(arguments) -> None:
         print(f"{name:<20} {value}")
 
 
+PROGRAM_COMMANDS = {
+    "run": "estimate the trajectory and the two-sided map of a recording",
+    "map": "build a two-sided map from scans at known poses",
+    "export": "write a saved map as points with normals and sides",
+    "simulate": "simulate a LiDAR and an IMU in a scene",
+    "evaluate": "compare trajectories and maps of runs with the truth",
+}
+
+
 def parser() -> argparse.ArgumentParser:
     top = argparse.ArgumentParser("nvm", description="Two-sided, normal-aware mapping with LiDAR")
     top.add_argument("--version", action="version", version=f"nvm {__version__}")
@@ -34,13 +43,20 @@ def parser() -> argparse.ArgumentParser:
     command = commands.add_parser("info", help="say what a recording or a saved map holds")
     command.add_argument("path", help="a bag of ROS 1 or ROS 2, or a map.nvm file")
     command.set_defaults(run=info)
+    for name, text in PROGRAM_COMMANDS.items():  # main() hands them over, with all their options
+        commands.add_parser(name, help=text, add_help=False)
     return top
 
 
 def main(argv: list[str] | None = None) -> int:
     """Runs the command; what is wrong goes to standard error in one line."""
-    arguments = parser().parse_args(argv)
+    argv = sys.argv[1:] if argv is None else argv
     try:
+        if argv and argv[0] in PROGRAM_COMMANDS:
+            from .program import run_program
+
+            return run_program(argv)
+        arguments = parser().parse_args(argv)
         arguments.run(arguments)
     except (BagError, ValueError, RuntimeError, OSError) as error:
         message = str(error)

@@ -283,9 +283,9 @@ TEST_F(ScanFolder, Ros2BagsAreSentToTheConverter) {
   write("metadata.yaml", "author: somebody\n");
   EXPECT_EQ(times().size(), 1U);
   write("metadata.yaml", "rosbag2_bagfile_information:\n  version: 9\n");
-  EXPECT_THAT(error(), HasSubstr("convert_bag.py"));
+  EXPECT_THAT(error(), HasSubstr("docs/python.md"));
   EXPECT_THAT(
-      runtime_error_of([&] { open_sequence(write("a.mcap", "")); }), HasSubstr("convert_bag.py"));
+      runtime_error_of([&] { open_sequence(write("a.mcap", "")); }), HasSubstr("docs/python.md"));
 }
 
 TEST(RealScans, AllAreRead) {

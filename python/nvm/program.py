@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: MIT
+# Copyright (c) 2026 The nvm authors
+"""The C++ program ``nvm``, and recordings for it that it does not read itself.
+
+One program runs whatever was recorded: bags are read here and their messages go to it through a
+pipe, in a process of their own, ahead of what it works on (docs/formats.md, "Pipe of messages").
+"""
+
+from __future__ import annotations
+
+import contextlib
+import fcntl
+import json
+import os
+import pathlib
+import signal
+import struct
+import subprocess
+import sys
+
+from .bags import BagError, Recording, is_bag
+from .choice import Choice, choose
+
+END = 0xFFFFFFFF  # in the place of a topic
+PIPE_SIZE = 1 << 20  # [bytes]
+
+
+def find_program() -> str:
+    """The program: the one that $NVM_PROGRAM names, or that lies in the package.
+
+    Raises
+    ------
+    RuntimeError
+        When there is none.
+    """
+    installed = pathlib.Path(__file__).parent / "bin" / "nvm"
+    named = os.environ.get("NVM_PROGRAM")
+    if named or installed.is_file():
+        return named or str(installed)
+    raise RuntimeError(
+        "this package came without the C++ program: build it (scripts/demo.sh makes "
+        "build/release/bin/nvm) and let NVM_PROGRAM name it"
+    )
+
+
+def run_program(arguments: list[str]) -> int:
+    """Runs the program on `arguments` and returns its exit code. The first argument that names a bag
+    is read for it."""
+    program = find_program()
+    bags = [i for i, argument in enumerate(arguments) if i > 0 and is_bag(argument)]
+    if not bags or arguments[0] not in ("run", "map"):
+        return exit_code(subprocess.run([program, *arguments], check=False).returncode)
+    before, bag, after = arguments[: bags[0]], arguments[bags[0]], arguments[bags[0] + 1 :]
+    settings = input_settings(program, before + after)
+    with Recording(bag) as recording:
+        choice = choose(recording, settings["lidar_topic"], settings["imu_topic"])
+        for reason in choice.reasons:
+            print(f"nvm: note: {reason}", file=sys.stderr)
+        chosen = choice_arguments(choice, settings)
+        return feed([program, *before], [*after, *chosen], recording, choice)
+
+
+def exit_code(code: int) -> int:
+    """As a shell says it: 128 and the signal that ended a program."""
+    return 128 - code if code < 0 else code
+
+
+def input_settings(program: str, arguments: list[str]) -> dict:
+    """What a command line says of the input, by the program's own word."""
+    from ruamel.yaml import YAML
+
+    asked = subprocess.run(
+        [program, *arguments, "--print-config"], check=False, capture_output=True, text=True
+    )
+    if asked.returncode != 0:
+        raise RuntimeError(asked.stderr.strip() or "the program does not print its settings")
+    settings = YAML(typ="safe").load(asked.stdout)["input"]
+    return {key: value or "" for key, value in settings.items()}
+
+
+def choice_arguments(choice: Choice, settings: dict) -> list[str]:
+    """The choice as settings of the program."""
+    topics = {"lidar_topic": choice.lidar.name, "imu_topic": choice.imu and choice.imu.name}
+    chosen = [f"input.{key}={json.dumps(name)}" for key, name in topics.items() if name]
+    if choice.T_imu_lidar is not None and not settings["T_imu_lidar"]:
+        chosen.append(f"input.T_imu_lidar={choice.extrinsic_numbers()}")
+    return [word for setting in chosen for word in ("--set", setting)]
+
+
+def feed(before: list[str], after: list[str], recording: Recording, choice: Choice) -> int:
+    """Runs a command with the messages of a recording in the place between its arguments."""
+    read_end, write_end = os.pipe()
+    with contextlib.suppress(OSError):  # a system may allow less
+        fcntl.fcntl(write_end, getattr(fcntl, "F_SETPIPE_SZ", 1031), PIPE_SIZE)
+    command = [*before, f"/dev/fd/{read_end}", *after]
+    with subprocess.Popen(command, pass_fds=[read_end]) as process:
+        os.close(read_end)
+        # The program ends a run well when it is interrupted: it is waited for.
+        handler = signal.signal(signal.SIGINT, lambda *_: None)
+        try:
+            problem = write_messages(write_end, recording, choice)
+            code = process.wait()
+        finally:
+            signal.signal(signal.SIGINT, handler)
+    if problem:
+        print(f"nvm: {recording.path}: {problem}", file=sys.stderr)
+        return exit_code(code) or 1
+    return exit_code(code)
+
+
+def write_messages(descriptor: int, recording: Recording, choice: Choice) -> str:
+    """Writes the messages of the chosen topics to a pipe; returns what was wrong with the recording,
+    nothing when the reader ended first."""
+    topics = [topic for topic in (choice.lidar, choice.imu) if topic]
+    head = {
+        "format": "nvm messages",
+        "version": 1,
+        "source": str(recording.path),
+        "recording": recording.format,
+        "topics": [
+            {"name": t.name, "type": t.type.replace("/msg/", "/"), "count": t.count} for t in topics
+        ],
+    }
+    places = {(t["name"], t["type"]): i for i, t in enumerate(head["topics"])}
+    try:
+        with os.fdopen(descriptor, "wb", buffering=PIPE_SIZE) as pipe:
+            pipe.write(json.dumps(head).encode() + b"\n")
+            for message in read_ahead(recording, [t.name for t in topics]):
+                if (message.topic, message.type) in places:
+                    place = places[message.topic, message.type]
+                    pipe.write(struct.pack("<IdI", place, message.record_time, len(message.data)))
+                    pipe.write(message.data)
+            pipe.write(struct.pack("<I", END))
+    except BrokenPipeError:
+        pass
+    except BagError as error:
+        return str(error)
+    return ""
+
+
+def read_ahead(recording: Recording, topics: list[str]):
+    """The messages; whatever rosbags finds wrong while reading becomes a BagError."""
+    try:
+        yield from recording.messages(topics)
+    except (BrokenPipeError, GeneratorExit):
+        raise
+    except Exception as error:
+        raise BagError(f"is damaged: {error}") from error
