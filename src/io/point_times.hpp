@@ -82,17 +82,4 @@ struct PointTimes {
 PointTimes learn_point_times(
     const std::vector<SweepSample>& samples, const TickType& type, const PointTimeOptions& options);
 
-/// Makes times that wrap at `modulus` contiguous: when those of one scan lie more than half of it
-/// apart, or all in its upper half, the upper ones are negative. No change for modulus 0.
-void unwrap(std::vector<double>& ticks, double modulus);
-
-/// The interval of `length` that holds the most of the ascending `ticks`: its first and last of
-/// them, and how many it holds.
-struct TickWindow {
-  double first = 0.0;
-  double last = 0.0;
-  std::size_t count = 0;
-};
-TickWindow densest_window(const std::vector<double>& ticks, double length);
-
 }  // namespace nvm::io

@@ -11,6 +11,7 @@
 #include "io/file.hpp"
 #include "io/scan_points.hpp"
 #include "io/sweep_azimuth.hpp"
+#include "io/tick_window.hpp"
 
 namespace nvm::io {
 namespace {
