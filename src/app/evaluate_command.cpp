@@ -10,12 +10,16 @@
 #include <string>
 #include <vector>
 
+#include "app/doing.hpp"
+#include "app/say.hpp"
 #include "eval/evaluation.hpp"
 #include "eval/region.hpp"
 #include "eval/report.hpp"
 
 namespace nvm::app {
 namespace {
+
+constexpr double kMillimetres = 1e3;
 
 struct EvaluateArguments {
   std::vector<std::string> runs;
@@ -39,23 +43,46 @@ void number_equal_names(std::vector<eval::RunEvaluation>& runs) {
   }
 }
 
-void print_summary(const eval::RunEvaluation& run) {
-  constexpr double kMillimetres = 1e3;
-  fmt::print("{}:", run.name);
-  if (run.trajectory) {
-    fmt::print(" ATE RMSE {:.2f} mm,", kMillimetres * run.trajectory->absolute.rmse);
-  }
-  const eval::WallSummary walls = eval::summarize(run.map.walls);
+/// ", 91 poses over 9.0 of 10.0 s", and how far from true they are.
+std::string trajectory_summary(const eval::TrajectoryEvaluation& trajectory) {
+  return fmt::format(
+      ", ATE RMSE {:.2f} mm over {} poses and {:.1f} of {:.1f} s",
+      kMillimetres * trajectory.absolute.rmse,
+      trajectory.association.pairs.size(),
+      trajectory.seconds,
+      trajectory.truth_seconds);
+}
+
+std::string map_summary(const eval::MapEvaluation& map) {
+  std::string text;
+  const eval::WallSummary walls = eval::summarize(map.walls);
   if (walls.seen > 0) {
-    fmt::print(" {} of {} walls,", walls.measured, walls.seen);
+    text += fmt::format(", {} of {} walls", walls.measured, walls.seen);
   }
   if (walls.absolute_error) {
-    fmt::print(
-        " thickness off by {:.2f} mm (worst {:.2f}),",
+    text += fmt::format(
+        ", thickness off by {:.2f} mm (worst {:.2f})",
         kMillimetres * walls.absolute_error->mean,
         kMillimetres * walls.absolute_error->max);
   }
-  fmt::print(" {} map points\n", run.map.points);
+  return text + fmt::format(", {} map points", map.points);
+}
+
+void print_summary(const eval::RunEvaluation& run) {
+  const std::string text = (run.trajectory ? trajectory_summary(*run.trajectory) : "") +
+                           (run.has_map ? map_summary(run.map) : "");
+  fmt::print("{}: {}\n", run.name, text.substr(2));
+}
+
+void print_remarks(const eval::RunEvaluation& run) {
+  constexpr double kUsualGap = 0.25;  // [s]
+  if (run.trajectory && run.trajectory->association.max_gap > kUsualGap) {
+    say(fmt::format(
+        "note: {}: the {} is interpolated over up to {:.2f} s, which adds to its errors",
+        run.name,
+        run.trajectory->association.interpolates_estimate ? "estimate" : "truth",
+        run.trajectory->association.max_gap));
+  }
 }
 
 void evaluate(EvaluateArguments& arguments) {
@@ -68,11 +95,14 @@ void evaluate(EvaluateArguments& arguments) {
     arguments.options.regions = eval::read_regions(arguments.regions);
   }
   for (const std::string& run : arguments.runs) {
-    evaluation.runs.push_back(eval::evaluate_run(run, evaluation.truth, arguments.options));
+    evaluation.runs.push_back(doing("evaluating " + run, [&] {
+      return eval::evaluate_run(run, evaluation.truth, arguments.options);
+    }));
   }
   number_equal_names(evaluation.runs);
   eval::write_report(evaluation, arguments.folder);
   for (const eval::RunEvaluation& run : evaluation.runs) {
+    print_remarks(run);
     print_summary(run);
   }
   fmt::print("{0}/report.html, {0}/evaluation.json\n", arguments.folder);
@@ -84,7 +114,9 @@ void add_evaluate_command(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("evaluate", "Compare trajectories and maps of runs with the truth");
   const auto arguments = std::make_shared<EvaluateArguments>();
-  command->add_option("RUN_DIR", arguments->runs, "Folders with trajectory.tum and map.ply")
+  command
+      ->add_option(
+          "RUN_DIR", arguments->runs, "Folders with trajectory.tum and map.ply, or TUM files")
       ->required();
   command->add_option(
       "--truth",
@@ -98,6 +130,13 @@ void add_evaluate_command(CLI::App& app) {
   command->add_option("--regions", arguments->regions, "YAML file of boxes around walls");
   command->add_option(
       "--time-offset", arguments->time_offset, "Added to the times of the truth [s]");
+  command
+      ->add_option(
+          "--max-gap",
+          arguments->options.max_gap,
+          "Poses farther apart are not interpolated [s]; default: 0.25, or 1.5 usual steps up to "
+          "1.5")
+      ->check(CLI::Range(0.0, 1e6));
   command
       ->add_option(
           "--margin", arguments->options.walls.points.margin, "Kept from the edges of walls [m]")

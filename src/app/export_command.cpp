@@ -3,11 +3,16 @@
 #include "app/export_command.hpp"
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <memory>
 #include <string>
 
+#include "app/doing.hpp"
 #include "app/map_files.hpp"
+#include "app/map_origin.hpp"
+#include "app/say.hpp"
 #include "io/map_cloud.hpp"
+#include "io/pending_path.hpp"
 #include "nvm/map/serialization.hpp"
 
 namespace nvm::app {
@@ -19,6 +24,17 @@ struct ExportArguments {
   std::string cloud;
 };
 
+void write_cloud(const ExportArguments& arguments) {
+  for (const std::string& left : io::leftovers_of(arguments.cloud)) {
+    say("note: " + left + ": was left by a program that was killed; removed");
+    std::filesystem::remove(left);
+  }
+  const Eigen::Vector3d origin = read_origin(arguments.map);
+  doing("exporting " + arguments.map, [&] {
+    io::write_map_cloud(arguments.cloud, map_cloud_of(load_map(arguments.map).points(), origin));
+  });
+}
+
 }  // namespace
 
 void add_export_command(CLI::App& app) {
@@ -27,9 +43,7 @@ void add_export_command(CLI::App& app) {
   const auto arguments = std::make_shared<ExportArguments>();
   command->add_option("MAP", arguments->map, "A map.nvm file")->required();
   command->add_option("--out", arguments->cloud, "A .ply or .pcd file")->required();
-  command->callback([arguments] {
-    io::write_map_cloud(arguments->cloud, map_cloud_of(load_map(arguments->map).points()));
-  });
+  command->callback([arguments] { write_cloud(*arguments); });
 }
 
 }  // namespace nvm::app

@@ -9,6 +9,8 @@
 #include <memory>
 #include <string>
 
+#include "app/doing.hpp"
+#include "app/map_origin.hpp"
 #include "nvm/map/serialization.hpp"
 
 namespace nvm::app {
@@ -18,11 +20,12 @@ namespace {
 constexpr double kBytesPerMegabyte = 1e6;
 
 void print_info(const std::string& path) {
-  const VoxelMap map = load_map(path);
+  const VoxelMap map = doing("loading " + path, [&] { return load_map(path); });
+  const Eigen::Vector3d origin = read_origin(path);
   const MapOptions& options = map.options();
   const MapStats stats = map.stats();
   Eigen::AlignedBox3d bounds;
-  map.for_each_point([&](const MapPoint& point) { bounds.extend(point.position); });
+  map.for_each_point([&](const MapPoint& point) { bounds.extend(point.position + origin); });
   fmt::print("points            {}\n", stats.points);
   fmt::print("voxels            {} of at most {}\n", stats.voxels, options.capacity);
   fmt::print("two-sided voxels  {}\n", stats.two_sided_voxels);

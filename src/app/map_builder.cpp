@@ -36,7 +36,7 @@ bool MapBuilder::add(const lio::Scan& scan) {
   deskew(scan, segments_, end_, returns_, scan_);
   const NormalResult& result =
       normal_estimator_.estimate(scan_.points, scan_.viewpoints, executor_);
-  map_->insert(scan_.points, result.normals, end_.T_world_lidar());
+  inserted_.add(scan_.size(), map_->insert(scan_.points, result.normals, end_.T_world_lidar()));
   placed_.push_back({scan.t_end, *end});
   return true;
 }

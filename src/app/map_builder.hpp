@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "app/insert_totals.hpp"
 #include "lio/deskew.hpp"
 #include "lio/executor.hpp"
 #include "lio/lio_map.hpp"
@@ -25,6 +26,7 @@ class MapBuilder {
   bool add(const lio::Scan& scan);
 
   const lio::LioMap& map() const { return *map_; }
+  const InsertTotals& inserted() const { return inserted_; }
   /// T_map_body at the ends of the scans that were added.
   const Trajectory& placed() const { return placed_; }
 
@@ -38,6 +40,7 @@ class MapBuilder {
   std::unique_ptr<lio::LioMap> map_;
   std::vector<lio::MotionSegment> segments_;
   lio::DeskewedScan scan_;
+  InsertTotals inserted_;
 };
 
 }  // namespace nvm::app

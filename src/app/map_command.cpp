@@ -13,10 +13,14 @@
 #include <string>
 #include <vector>
 
+#include "app/doing.hpp"
+#include "app/failure.hpp"
 #include "app/map_builder.hpp"
-#include "app/map_files.hpp"
-#include "app/progress_bar.hpp"
+#include "app/map_origin.hpp"
+#include "app/results.hpp"
 #include "app/run_options.hpp"
+#include "app/say.hpp"
+#include "eval/association.hpp"
 #include "io/file.hpp"
 #include "io/sequence_reader.hpp"
 #include "io/trajectory_io.hpp"
@@ -58,30 +62,107 @@ Trajectory read_poses(const MapArguments& arguments, const io::SequenceOptions& 
              : io::read_tum(arguments.poses);
 }
 
-void build_map(const MapArguments& arguments, RunOptions& options) {
-  const auto reader = io::open_sequence(arguments.input, options.input);
-  options.pipeline.inertial.T_imu_lidar = lidar_extrinsic(options, reader->info());
-  MapBuilder builder(options.pipeline, read_poses(arguments, options.input));
-  make_output_folder(arguments.folder);
-  std::size_t scans = 0;
-  {
-    ProgressBar progress(reader->info().scan_count);
-    for (; const std::optional<lio::Scan> scan = reader->next_scan(); ++scans) {
-      builder.add(*scan);
-      progress.step("");
-    }
+/// Of the scans that were read.
+struct ScanTimes {
+  std::size_t count = 0;
+  double first = 0.0;  ///< [s]
+  double last = 0.0;
+
+  void add(double time) {
+    first = count++ == 0 ? time : first;
+    last = time;
+  }
+};
+
+/// "poses from ... to ..., scans from ... to ...".
+std::string describe(const Trajectory& poses, const ScanTimes& scans) {
+  return fmt::format(
+      "poses {}, scans {}",
+      poses.empty() ? "none" : eval::describe_span(poses.front().time, poses.back().time),
+      eval::describe_span(scans.first, scans.last));
+}
+
+/// Why a map has no points, in one line.
+std::string why_empty(
+    const MapArguments& arguments,
+    const MapBuilder& builder,
+    const Trajectory& poses,
+    const ScanTimes& scans) {
+  if (scans.count == 0) {
+    return arguments.input + ": has no scans";
   }
   if (builder.placed().empty()) {
-    io::fail(arguments.poses, "has no pose at the time of any scan");
+    return arguments.poses + ": has no pose at the time of any scan: " + describe(poses, scans);
   }
-  write_map_files(builder.map(), arguments.folder);
-  io::write_tum(arguments.folder + "/trajectory.tum", builder.placed());
+  return arguments.input + ": the map has no points: " + builder.inserted().why_empty();
+}
+
+/// Throws Failure when nothing is worth keeping, for the reason `why`.
+void check_useful(const MapBuilder& builder, const Ending& ending, const std::string& why) {
+  if (builder.map().size() > 0) {
+    return;
+  }
+  if (ending.signal != 0) {
+    throw Failure("interrupted before there was a map", kExitSignal + ending.signal);
+  }
+  throw Failure(ending.error.empty() ? why : ending.error, kExitError);
+}
+
+void print_origin(const Eigen::Vector3d& origin) {
+  if (!origin.isZero(0.0)) {
+    say(fmt::format(
+        "note: poses are far from zero, so map.nvm counts from {} {} {} m, which "
+        "map_origin.txt keeps for nvm export; map.ply and trajectory.tum are where the poses are",
+        origin.x(),
+        origin.y(),
+        origin.z()));
+  }
+}
+
+/// Reads the scans and publishes what became of them.
+void build_map(
+    const MapArguments& arguments,
+    const Trajectory& poses,
+    io::SequenceReader& reader,
+    const RunOptions& options) {
+  const Eigen::Vector3d origin = choose_origin(poses);
+  MapBuilder builder = doing(making_map(options.pipeline.map), [&] {
+    return MapBuilder(options.pipeline, moved(poses, -origin));
+  });
+  const Interruption interruption;
+  io::ResultFolder results(arguments.folder);
+  announce_unfinished(results);
+  ScanTimes scans;
+  Ending ending = use_scans(reader, interruption, [&](const lio::Scan& scan) {
+    scans.add(scan.t_end);
+    builder.add(scan);
+    return "";
+  });
+  print_notes(reader.info());
+  check_useful(builder, ending, why_empty(arguments, builder, poses, scans));
+  io::write_tum(results.path() + "/trajectory.tum", moved(builder.placed(), origin));
+  publish(results, builder.map(), origin, ending);
+  print_origin(origin);
   fmt::print(
       "{}: {} of {} scans placed, {} map points\n",
       arguments.folder,
       builder.placed().size(),
-      scans,
+      scans.count,
       builder.map().size());
+  check_ending(ending, arguments.folder);
+  if (2 * builder.placed().size() < scans.count) {
+    throw Failure(
+        arguments.poses + ": has no pose for most scans: " + describe(poses, scans), kExitUnusable);
+  }
+}
+
+void read_and_build(const MapArguments& arguments, RunOptions& options) {
+  check_apart(arguments.input, arguments.folder);
+  const auto reader = open_input(arguments.input, options.input);
+  options.pipeline.inertial.T_imu_lidar = lidar_extrinsic(options, reader->info());
+  const Trajectory poses =
+      doing("reading " + arguments.poses, [&] { return read_poses(arguments, options.input); });
+  build_map(arguments, poses, *reader, options);
 }
 
 }  // namespace
@@ -104,7 +185,7 @@ void add_map_command(CLI::App& app) {
     if (arguments->input.empty() || arguments->poses.empty() || arguments->folder.empty()) {
       throw CLI::RequiredError("each of SCANS, --poses and --out");
     }
-    build_map(*arguments, *options);
+    read_and_build(*arguments, *options);
   });
 }
 

@@ -11,14 +11,12 @@
 
 namespace nvm::app {
 
-/// The points of a map as the writers of nvm::io take them.
-io::MapCloud map_cloud_of(const std::vector<MapPoint>& points);
+/// The points of a map whose origin is at `origin` [m], as the writers of nvm::io take them.
+io::MapCloud map_cloud_of(const std::vector<MapPoint>& points, const Eigen::Vector3d& origin);
 
-/// Writes map.ply and, for a voxel map, map.nvm to `folder`. Throws std::runtime_error.
-void write_map_files(const lio::LioMap& map, const std::string& folder);
-
-/// Makes `folder` unless it exists, before any work is done for it. Throws std::runtime_error when
-/// it cannot be made or written to.
-void make_output_folder(const std::string& folder);
+/// Writes map.ply and, for a voxel map, map.nvm to `folder`; map.nvm counts from `origin` [m].
+/// Throws std::runtime_error.
+void write_map_files(
+    const lio::LioMap& map, const Eigen::Vector3d& origin, const std::string& folder);
 
 }  // namespace nvm::app

@@ -9,14 +9,14 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 
-#include "app/map_files.hpp"
-#include "app/progress_bar.hpp"
+#include "app/doing.hpp"
+#include "app/results.hpp"
 #include "app/run_files.hpp"
 #include "app/run_options.hpp"
 #include "app/run_summary.hpp"
-#include "io/file.hpp"
+#include "app/run_verdict.hpp"
+#include "app/say.hpp"
 #include "io/sequence_reader.hpp"
 #include "lio/pipeline_options.hpp"
 
@@ -34,51 +34,48 @@ std::unique_ptr<lio::Pipeline> make_pipeline(RunOptions& options, const io::Sequ
   lio::PipelineOptions& pipeline = options.pipeline;
   pipeline.type = lio::resolve(pipeline.type, info.has_imu);
   pipeline.inertial.T_imu_lidar = lidar_extrinsic(options, info);
-  return lio::make_pipeline(pipeline);
+  return doing(making_map(pipeline.map), [&] { return lio::make_pipeline(pipeline); });
 }
 
-/// Runs `pipeline` on all scans. Each frame goes to `files` and `summary` as it is finished.
-void process(
-    io::SequenceReader& reader, lio::Pipeline& pipeline, RunFiles& files, RunSummary& summary) {
-  ProgressBar progress(reader.info().scan_count);
-  while (const std::optional<lio::Scan> scan = reader.next_scan()) {
-    for (const lio::ImuSample& sample : reader.imu_until(scan->t_end)) {
+/// Runs `pipeline` on all scans. Each frame goes to the files and `summary` as it is finished.
+Ending process(
+    io::SequenceReader& reader,
+    lio::Pipeline& pipeline,
+    const Interruption& interruption,
+    const std::string& folder,
+    RunSummary& summary) {
+  RunFiles files(folder);
+  return use_scans(reader, interruption, [&](const lio::Scan& scan) {
+    for (const lio::ImuSample& sample : reader.imu_until(scan.t_end)) {
       pipeline.add_imu(sample);
     }
-    const lio::FrameResult frame = pipeline.process(*scan);
-    progress.step(lio::name(frame.status));
-    files.add(frame);
+    const lio::FrameResult frame = pipeline.process(scan);
     summary.add(frame);
-  }
+    files.add(frame);
+    return lio::name(frame.status);
+  });
 }
 
-void run(const RunArguments& arguments) {
-  std::optional<RunOptions> options = read_run_options(arguments.options);
-  if (!options) {
-    return;
-  }
-  if (arguments.input.empty() || arguments.folder.empty()) {
-    throw CLI::RequiredError("each of INPUT and --out");
-  }
-  const auto reader = io::open_sequence(arguments.input, options->input);
-  const auto pipeline = make_pipeline(*options, reader->info());
-  make_output_folder(arguments.folder);
+void run(const RunArguments& arguments, RunOptions& options) {
+  check_apart(arguments.input, arguments.folder);
+  const auto reader = open_input(arguments.input, options.input);
+  const auto pipeline = make_pipeline(options, reader->info());
+  const Interruption interruption;
+  io::ResultFolder results(arguments.folder);
+  announce_unfinished(results);
   const auto begin = std::chrono::steady_clock::now();
-  RunFiles files(arguments.folder);
   RunSummary summary;
-  process(*reader, *pipeline, files, summary);
+  Ending ending = process(*reader, *pipeline, interruption, results.path(), summary);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
-  for (const std::string& note : reader->info().notes) {
-    fmt::print(stderr, "nvm: note: {}\n", note);
-  }
+  print_notes(reader->info());
+  check_useful(summary, pipeline->map().size(), ending, arguments.input);
   for (const std::string& warning : summary.warnings()) {
-    fmt::print(stderr, "nvm: warning: {}\n", warning);
+    say("warning: " + warning);
   }
-  if (summary.poses() == 0) {
-    io::fail(arguments.input, "no scan got a pose");
-  }
-  write_map_files(pipeline->map(), arguments.folder);
-  files.finish(summary, wall.count());
+  attempt({results.path() + "/timing.json"}, ending, [&] {
+    write_timing(results.path(), summary, wall.count());
+  });
+  publish(results, pipeline->map(), Eigen::Vector3d::Zero(), ending);
   fmt::print("{}", summary.timing_table());
   fmt::print(
       "{}: {} poses of {} scans, {} map points, {:.1f} s\n",
@@ -87,6 +84,8 @@ void run(const RunArguments& arguments) {
       summary.frames(),
       pipeline->map().size(),
       wall.count());
+  check_ending(ending, arguments.folder);
+  check_usable(summary, arguments.folder);
 }
 
 }  // namespace
@@ -101,7 +100,16 @@ void add_run_command(CLI::App& app) {
       "Folder of PCD, PLY or KITTI .bin scans, nvm sequence folder, or ROS 1 bag");
   command->add_option("--out", arguments->folder, "Folder of the results");
   add_run_options(*command, arguments->options);
-  command->callback([arguments] { run(*arguments); });
+  command->callback([arguments] {
+    std::optional<RunOptions> options = read_run_options(arguments->options);
+    if (!options) {
+      return;
+    }
+    if (arguments->input.empty() || arguments->folder.empty()) {
+      throw CLI::RequiredError("each of INPUT and --out");
+    }
+    run(*arguments, *options);
+  });
 }
 
 }  // namespace nvm::app

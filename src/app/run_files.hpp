@@ -4,35 +4,30 @@
 
 #include <string>
 
+#include "app/line_file.hpp"
 #include "app/run_summary.hpp"
-#include "io/file.hpp"
 #include "lio/pipeline.hpp"
 
 namespace nvm::app {
 
 /// What a run says frame by frame, in files that grow with it, so that memory does not:
-/// trajectory.tum and trajectory_kitti.txt (T_map_body of the frames with a pose) and timing.json
-/// (a line per frame).
-///
-/// Each frame is in the files when add() returns. They get their names when the run is complete: of
-/// a run that is killed, files with the ending .part and a number remain, whole up to its last
-/// frame; of one that fails, nothing does.
+/// trajectory.tum and trajectory_kitti.txt (T_map_body of the frames with a pose) and frames.csv (a
+/// line per frame). Each frame is in the files when add() returns.
 class RunFiles {
  public:
-  /// Throws std::runtime_error when `folder` cannot be written to.
+  /// Makes the files in `folder`. Throws std::runtime_error.
   explicit RunFiles(const std::string& folder);
 
+  /// Throws std::runtime_error when the disk is full; the frames before are whole then.
   void add(const lio::FrameResult& frame);
 
-  /// Completes the files with what sums the frames up. Throws std::runtime_error when something
-  /// could not be written.
-  void finish(const RunSummary& summary, double wall_seconds);
-
  private:
-  io::AtomicFile tum_;
-  io::AtomicFile kitti_;
-  io::AtomicFile timing_;
-  bool is_first_ = true;  ///< of the frames, none of which is in timing.json
+  LineFile tum_;
+  LineFile kitti_;
+  LineFile frames_;
 };
+
+/// Writes timing.json, which sums the frames up, to `folder`. Throws std::runtime_error.
+void write_timing(const std::string& folder, const RunSummary& summary, double wall_seconds);
 
 }  // namespace nvm::app

@@ -9,7 +9,9 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "app/doing.hpp"
 #include "config/schema.hpp"
+#include "nvm/map/storage/map_capacity.hpp"
 
 namespace nvm::app {
 
@@ -87,6 +89,19 @@ std::optional<RunOptions> read_run_options(const RunOptionArguments& arguments) 
     return std::nullopt;
   }
   return options;
+}
+
+std::unique_ptr<io::SequenceReader> open_input(
+    const std::string& input, const io::SequenceOptions& options) {
+  return doing("opening " + input, [&] { return io::open_sequence(input, options); });
+}
+
+std::string making_map(const MapOptions& options) {
+  constexpr double kBytesPerMegabyte = 1e6;
+  return fmt::format(
+      "making a map of map.capacity={} voxels, for which it needs {:.0f} MB",
+      options.capacity,
+      static_cast<double>(detail::map_capacity(options).bytes()) / kBytesPerMegabyte);
 }
 
 Pose lidar_extrinsic(const RunOptions& options, const io::SequenceInfo& info) {

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The nvm authors
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,6 +38,13 @@ void add_run_options(CLI::App& command, RunOptionArguments& arguments);
 /// The options that `arguments` ask for; prints them and gives nothing with --print-config. Throws
 /// std::invalid_argument, naming the key, for a bad one.
 std::optional<RunOptions> read_run_options(const RunOptionArguments& arguments);
+
+/// Opens the sequence `input`. Throws std::exception with one line about what is wrong.
+std::unique_ptr<io::SequenceReader> open_input(
+    const std::string& input, const io::SequenceOptions& options);
+
+/// "making a map ...", with the memory that `options` may need.
+std::string making_map(const MapOptions& options);
 
 /// The extrinsic of a run: as configured, else as the sequence tells. Throws std::invalid_argument
 /// for numbers that are no pose.

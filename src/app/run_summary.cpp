@@ -17,11 +17,18 @@ bool has_pose(const FrameResult& frame) {
 }
 
 void RunSummary::add(const FrameResult& frame) {
+  if (frames_ == 0) {
+    begin_ = frame.time;
+  }
   ++frames_;
   poses_ += has_pose(frame) ? 1 : 0;
+  inserted_.add(frame.points, frame.inserted);
+  const bool is_open = has_pose(frame) && frame.degenerate_directions > 0;
+  usable_ += frame.status == FrameStatus::kTracking && !is_open ? 1 : 0;
+  unobserved_.add(frame.time, is_open);
   for (Trouble& trouble : troubles_) {
-    if (frame.status == trouble.status && ++trouble.count == 1) {
-      trouble.first_time = frame.time;
+    trouble.spans.add(frame.time, frame.status == trouble.status);
+    if (frame.status == trouble.status && trouble.spans.count() == 1) {
       trouble.first_message = frame.message;
     }
   }
@@ -35,18 +42,64 @@ void RunSummary::add(const FrameResult& frame) {
 std::vector<std::string> RunSummary::warnings() const {
   std::vector<std::string> warnings;
   for (const Trouble& trouble : troubles_) {
-    if (trouble.count > 0) {
+    // Every run with an IMU begins without a pose; that is only told of one that got none.
+    const bool is_usual = trouble.status == FrameStatus::kInitializing && poses_ > 0;
+    if (trouble.spans.count() > 0 && !is_usual) {
       warnings.push_back(fmt::format(
-          "{} of {} scans {} ({}), the first at {:.3f} s: {}",
-          trouble.count,
+          "{} of {} scans {} ({}): {}; {}",
+          trouble.spans.count(),
           frames_,
           lio::name(trouble.status),
           trouble.meaning,
-          trouble.first_time,
+          trouble.spans.describe(begin_),
           trouble.first_message));
     }
   }
+  if (unobserved_.count() > 0) {
+    warnings.push_back(fmt::format(
+        "{} of {} scans do not tell all directions of the pose, as in a tunnel, at one wall or in "
+        "the open (there the pose drifts): {}",
+        unobserved_.count(),
+        frames_,
+        unobserved_.describe(begin_)));
+  }
+  add_map_warnings(warnings);
   return warnings;
+}
+
+void RunSummary::add_map_warnings(std::vector<std::string>& warnings) const {
+  const InsertStats& stats = inserted_.stats;
+  if (stats.out_of_range > 0) {
+    warnings.push_back(fmt::format(
+        "{} points are not in the map: they lie more than 2^20 voxels from its origin (are "
+        "coordinates in millimetres, or those of a country's grid?)",
+        stats.out_of_range));
+  }
+  if (stats.map_full > 0) {
+    warnings.push_back(fmt::format(
+        "{} points are not in the map: map.max_bytes is too small for a single scan",
+        stats.map_full));
+  }
+  if (stats.evicted_points > 0) {
+    warnings.push_back(fmt::format(
+        "{} points of {} voxels have left the map, which was full (map.capacity, map.eviction)",
+        stats.evicted_points,
+        stats.evicted_voxels));
+  }
+}
+
+std::string RunSummary::counts() const {
+  std::string counts;
+  const auto add = [&](std::size_t count, const std::string& what) {
+    if (count > 0) {
+      counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", count, what);
+    }
+  };
+  for (const Trouble& trouble : troubles_) {
+    add(trouble.spans.count(), lio::name(trouble.status));
+  }
+  add(unobserved_.count(), "with unobserved directions");
+  return counts;
 }
 
 double RunSummary::mean(const StageSummary& summary) const {

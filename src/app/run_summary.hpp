@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "app/insert_totals.hpp"
 #include "app/stages.hpp"
+#include "app/time_spans.hpp"
 #include "lio/pipeline.hpp"
 
 namespace nvm::app {
@@ -23,8 +25,16 @@ class RunSummary {
   std::size_t frames() const { return frames_; }
   std::size_t poses() const { return poses_; }
 
+  /// Frames whose pose rests on their scan in all directions.
+  std::size_t usable() const { return usable_; }
+
+  const InsertTotals& inserted() const { return inserted_; }
+
   /// What was not in order, one line each.
   std::vector<std::string> warnings() const;
+
+  /// "40 weak, 3 lost": the frames that were not usable, in words; empty for none.
+  std::string counts() const;
 
   /// Mean and largest CPU time per scan of each stage, as a table.
   std::string timing_table() const;
@@ -37,8 +47,7 @@ class RunSummary {
   struct Trouble {
     lio::FrameStatus status;
     const char* meaning;
-    std::size_t count = 0;
-    double first_time = 0.0;  ///< [s]
+    TimeSpans spans = {};
     std::string first_message = {};
   };
   /// CPU time of a stage [ms].
@@ -48,13 +57,19 @@ class RunSummary {
   };
 
   double mean(const StageSummary& summary) const;
+  void add_map_warnings(std::vector<std::string>& warnings) const;
 
   std::size_t frames_ = 0;
   std::size_t poses_ = 0;
-  std::array<Trouble, 3> troubles_ = {
-      {{lio::FrameStatus::kWeak, "their poses are predictions"},
+  std::size_t usable_ = 0;
+  double begin_ = 0.0;  ///< time of the first frame [s]
+  InsertTotals inserted_;
+  std::array<Trouble, 4> troubles_ = {
+      {{lio::FrameStatus::kInitializing, "they have no pose"},
+       {lio::FrameStatus::kWeak, "their poses are predictions"},
        {lio::FrameStatus::kLost, "they have no pose"},
        {lio::FrameStatus::kSkipped, "they have no pose"}}};
+  TimeSpans unobserved_;
   std::array<StageSummary, 7> summaries_;  ///< in the order of stages()
 };
 

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "nvm/geometry/trajectory.hpp"
@@ -20,13 +22,29 @@ struct PosePair {
 /// An estimate brought together with the truth.
 struct Association {
   std::vector<PosePair> pairs;  ///< ascending in time
-  std::size_t unmatched = 0;    ///< poses outside the truth's time span, or inside a gap of it
-  std::size_t non_finite = 0;   ///< poses that hold a NaN or an infinity
+  /// Poses, of the trajectory that is not interpolated, outside the other one's time span or inside
+  /// a gap of it.
+  std::size_t unmatched = 0;
+  std::size_t non_finite = 0;          ///< estimated poses that hold a NaN or an infinity
+  double max_gap = 0.0;                ///< [s] over which was interpolated, at most
+  bool interpolates_estimate = false;  ///< the truth is the sparser one
 };
 
-/// Pairs each pose of `estimate` with the true pose at its time, interpolated (slerp and straight
-/// line) between the two poses of `truth` around it unless these are more than `max_gap` [s] apart.
-/// Non-finite poses of either trajectory take no part. Both must ascend in time.
-Association associate(const Trajectory& estimate, const Trajectory& truth, double max_gap = 0.25);
+/// Pairs the poses of both trajectories: each pose of the sparser one with that of the other at its
+/// time, interpolated (slerp and straight line) between the two poses around it unless these are
+/// more than `max_gap` [s] apart. Without `max_gap` that is one and a half usual steps of the
+/// interpolated trajectory, 0.25 s at least and 1.5 s at most. Non-finite poses of either take no
+/// part. Both must ascend in time.
+Association associate(
+    const Trajectory& estimate,
+    const Trajectory& truth,
+    std::optional<double> max_gap = std::nullopt);
+
+/// Why none of the poses is paired, in one line: the spans of both, whose clocks they may be, and
+/// what would bring them together.
+std::string why_unmatched(const Trajectory& estimate, const Trajectory& truth);
+
+/// "from 1000.000 to 1010.000 s (since a start)": times [s], and whose clock they may be.
+std::string describe_span(double begin, double end);
 
 }  // namespace nvm::eval

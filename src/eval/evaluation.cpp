@@ -25,15 +25,18 @@ Trajectory shifted(Trajectory trajectory, double time_offset) {
 }
 
 TrajectoryEvaluation evaluate_trajectory(
-    const std::string& path, const Trajectory& truth, AlignmentKind alignment) {
+    const std::string& path, const Trajectory& truth, const EvaluationOptions& options) {
   TrajectoryEvaluation result;
-  result.association = associate(io::read_tum(path), truth);
+  const Trajectory estimate = io::read_tum(path);
+  result.association = associate(estimate, truth, options.max_gap);
   const std::vector<PosePair>& pairs = result.association.pairs;
   if (pairs.empty()) {
-    io::fail(path, "no pose lies within the time span of the true trajectory");
+    io::fail(path, why_unmatched(estimate, truth));
   }
+  result.seconds = pairs.back().time - pairs.front().time;
+  result.truth_seconds = truth.back().time - truth.front().time;
   try {
-    result.alignment = align(pairs, alignment);
+    result.alignment = align(pairs, options.alignment);
   } catch (const std::runtime_error& error) {
     io::fail(path, error.what());
   }
@@ -68,6 +71,17 @@ Pose map_pose(const TrajectoryEvaluation& trajectory, AlignmentKind kind) {
              : trajectory.alignment.T_world_map;
 }
 
+/// Throws std::runtime_error when a run without a map is asked for what only a map has.
+void check_map_is_needless(
+    const std::string& path, bool has_truth, const EvaluationOptions& options) {
+  if (!has_truth) {
+    io::fail(path, "is missing, and without a truth there is nothing else to judge");
+  }
+  if (!options.regions.empty()) {
+    io::fail(path, "is missing, and regions are parts of it");
+  }
+}
+
 /// The last part of a path that has a name: "out/nvm/" is "nvm".
 std::string folder_name(const std::string& folder) {
   const fs::path path = fs::absolute(folder).lexically_normal();
@@ -80,10 +94,13 @@ Truth read_truth(const std::string& path, double time_offset) {
   if (fs::is_regular_file(path)) {
     return {shifted(io::read_tum(path), time_offset), {}};
   }
-  const fs::path folder(path);
+  if (!fs::exists(path)) {
+    io::fail(path, "does not exist");
+  }
+  const std::string scene = (fs::path(path) / "scene.json").string();
   return {
-      shifted(io::read_tum((folder / "groundtruth.tum").string()), time_offset),
-      read_walls((folder / "scene.json").string())};
+      shifted(io::read_tum((fs::path(path) / "groundtruth.tum").string()), time_offset),
+      fs::exists(scene) ? read_walls(scene) : std::vector<WallPiece>()};
 }
 
 WallSummary summarize(const std::vector<WallEvaluation>& walls) {
@@ -102,17 +119,25 @@ WallSummary summarize(const std::vector<WallEvaluation>& walls) {
 }
 
 RunEvaluation evaluate_run(
-    const std::string& folder,
-    const std::optional<Truth>& truth,
-    const EvaluationOptions& options) {
-  const fs::path run(folder);
+    const std::string& run, const std::optional<Truth>& truth, const EvaluationOptions& options) {
+  const bool is_trajectory = fs::is_regular_file(run);
+  const fs::path folder = is_trajectory ? fs::path(run).parent_path() : fs::path(run);
+  const std::string map = (folder / "map.ply").string();
   RunEvaluation result;
-  result.name = folder_name(folder);
-  result.timing = read_timing((run / "timing.json").string());
-  OrientedCloud cloud = read_oriented_cloud((run / "map.ply").string());
+  result.name = is_trajectory ? fs::path(run).stem().string() : folder_name(run);
+  result.has_map = !is_trajectory && fs::exists(map);
+  OrientedCloud cloud;
+  if (result.has_map) {
+    cloud = read_oriented_cloud(map);
+  } else {
+    check_map_is_needless(map, truth.has_value(), options);
+  }
+  if (!is_trajectory) {
+    result.timing = read_timing((folder / "timing.json").string());
+  }
   if (truth) {
     result.trajectory = evaluate_trajectory(
-        (run / "trajectory.tum").string(), truth->trajectory, options.alignment);
+        is_trajectory ? run : (folder / "trajectory.tum").string(), truth->trajectory, options);
     cloud = transformed(std::move(cloud), map_pose(*result.trajectory, options.alignment));
   }
   result.map = evaluate_map(cloud, truth ? truth->walls : std::vector<WallPiece>(), options);

@@ -22,7 +22,7 @@ struct Truth {
   std::vector<WallPiece> walls;  ///< none where the truth is a trajectory alone
 };
 
-/// Reads a sequence folder (groundtruth.tum and scene.json), or a TUM file, which knows no walls.
+/// Reads a sequence folder (groundtruth.tum and, where walls are known, scene.json), or a TUM file.
 /// `time_offset` [s] is added to the times of the trajectory. Throws std::runtime_error, naming the
 /// file and what is wrong.
 Truth read_truth(const std::string& path, double time_offset = 0.0);
@@ -30,12 +30,15 @@ Truth read_truth(const std::string& path, double time_offset = 0.0);
 /// What is asked of an evaluation.
 struct EvaluationOptions {
   AlignmentKind alignment = AlignmentKind::kSe3;
-  std::vector<Region> regions;  ///< in the world frame; in the map frame without a truth
+  std::optional<double> max_gap;  ///< of associate() [s]
+  std::vector<Region> regions;    ///< in the world frame; in the map frame without a truth
   WallOptions walls;
 };
 
 /// How far a trajectory is from the truth.
 struct TrajectoryEvaluation {
+  double seconds = 0.0;        ///< between the first and the last pair
+  double truth_seconds = 0.0;  ///< of the truth: what lies beyond the pairs is not judged
   Association association;
   Alignment alignment;
   std::vector<double> errors;  ///< [m], per pair of the association
@@ -59,6 +62,7 @@ struct MapEvaluation {
 struct RunEvaluation {
   std::string name;
   std::optional<TrajectoryEvaluation> trajectory;  ///< nothing without a truth
+  bool has_map = true;                             ///< else `map` is that of no points
   MapEvaluation map;
   std::vector<StageTiming> timing;  ///< none when the run has no timing.json
 };
@@ -79,12 +83,12 @@ struct WallSummary {
 
 WallSummary summarize(const std::vector<WallEvaluation>& walls);
 
-/// Evaluates the run in `folder`: its map.ply and, where there is a truth, its trajectory.tum
-/// (T_map_body), which also tells where the map is in the world: the map is moved by the
-/// trajectory's SE(3) alignment (by none with AlignmentKind::kNone) and never scaled. Throws
-/// std::runtime_error, naming the file and what is wrong, when a file is missing or malformed or
-/// the trajectory cannot be compared with the truth.
+/// Evaluates a run: a folder with map.ply and trajectory.tum (T_map_body), either of which may lack
+/// where it is not needed, or a TUM file. The trajectory, compared with the truth, also tells where
+/// the map is in the world: the map is moved by the trajectory's SE(3) alignment (by none with
+/// AlignmentKind::kNone) and never scaled. Throws std::runtime_error, naming the file and what is
+/// wrong, when a file is missing or malformed or the trajectory cannot be compared with the truth.
 RunEvaluation evaluate_run(
-    const std::string& folder, const std::optional<Truth>& truth, const EvaluationOptions& options);
+    const std::string& run, const std::optional<Truth>& truth, const EvaluationOptions& options);
 
 }  // namespace nvm::eval

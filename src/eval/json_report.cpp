@@ -49,6 +49,10 @@ json to_json(const std::optional<TrajectoryEvaluation>& trajectory) {
   return {
       {"poses", trajectory->association.pairs.size()},
       {"unmatched_poses", trajectory->association.unmatched},
+      {"interpolated", trajectory->association.interpolates_estimate ? "estimate" : "truth"},
+      {"max_gap_s", trajectory->association.max_gap},
+      {"seconds", trajectory->seconds},
+      {"truth_seconds", trajectory->truth_seconds},
       {"T_world_map", to_json(trajectory->alignment)},
       {"ate_m", to_json(trajectory->absolute)},
       {"rpe_per_frame", to_json(trajectory->per_frame)},
@@ -129,7 +133,7 @@ std::string json_report(const Evaluation& evaluation) {
     runs.push_back(
         {{"name", run.name},
          {"trajectory", to_json(run.trajectory)},
-         {"map", to_json(run.map)},
+         {"map", run.has_map ? to_json(run.map) : json()},
          {"cpu", to_json(run.timing)}});
   }
   return json{{"runs", runs}}.dump(2) + "\n";

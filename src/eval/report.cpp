@@ -11,6 +11,7 @@
 #include "eval/json_report.hpp"
 #include "eval/wall_pictures.hpp"
 #include "io/file.hpp"
+#include "io/pending_path.hpp"
 
 namespace nvm::eval {
 

@@ -2,8 +2,6 @@
 // Copyright (c) 2026 The nvm authors
 #include "io/file.hpp"
 
-#include <unistd.h>
-
 #include <cctype>
 #include <cerrno>
 #include <filesystem>
@@ -57,40 +55,6 @@ std::string quote(std::string_view text) {
     quoted += std::isprint(static_cast<unsigned char>(c)) != 0 ? c : '?';
   }
   return quoted + (text.size() > kMaxLength ? "...'" : "'");
-}
-
-PendingPath::PendingPath(const std::string& path)
-    : path_(path), temporary_(path + ".part" + std::to_string(::getpid())) {}
-
-PendingPath::~PendingPath() {
-  if (!is_committed_) {
-    std::error_code ignored;
-    std::filesystem::remove_all(temporary_, ignored);
-  }
-}
-
-void PendingPath::commit() {
-  std::error_code error;
-  std::filesystem::rename(temporary_, path_, error);
-  if (error) {
-    fail(path_, "cannot be written: " + error.message());
-  }
-  is_committed_ = true;
-}
-
-AtomicFile::AtomicFile(const std::string& path)
-    : pending_(path), stream_(pending_.temporary(), std::ios::binary) {
-  if (!stream_) {
-    fail(path, "cannot be written: " + last_error());
-  }
-}
-
-void AtomicFile::commit() {
-  stream_.close();
-  if (!stream_) {
-    fail(pending_.path(), "cannot be written: " + last_error());
-  }
-  pending_.commit();
 }
 
 }  // namespace nvm::io

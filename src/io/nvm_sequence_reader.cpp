@@ -14,6 +14,7 @@
 #include "io/file.hpp"
 #include "io/imu_file.hpp"
 #include "io/nvm_sequence_meta.hpp"
+#include "io/stays_below.hpp"
 
 namespace nvm::io {
 namespace {
@@ -47,12 +48,12 @@ std::vector<ScanEntry> read_scan_list(const std::string& folder) {
     if (t_end < t_begin) {
       rows.line().fail("t_end is below t_begin");
     }
-    const fs::path file = fs::path((*cells)[3]).lexically_normal();
-    if (file.is_absolute() || *file.begin() == "..") {
-      rows.line().fail("the file " + quote((*cells)[3]) + " is outside of the folder");
+    const std::string file((*cells)[3]);
+    if (!stays_below(file)) {
+      rows.line().fail("the file " + quote(file) + " is outside of the folder");
     }
     previous = t_begin;
-    scans.push_back({(fs::path(folder) / (*cells)[3]).string(), t_begin, t_end});
+    scans.push_back({(fs::path(folder) / file).string(), t_begin, t_end});
   }
   return scans;
 }

@@ -40,13 +40,13 @@ void encode(const lio::TimedPoint& point, char* record) {
 }  // namespace
 
 NvmSequenceWriter::NvmSequenceWriter(const std::string& folder)
-    : pending_(folder), folder_(pending_.temporary()) {
+    : pending_(folder, PendingPath::Kind::kFolder), folder_(pending_.temporary()) {
   if (fs::exists(folder)) {
     fail(folder, "exists already");
   }
   std::error_code error;
-  if (!fs::create_directories(folder_ / "scans", error)) {
-    fail(folder, "cannot be created: " + error.message());
+  if (!fs::create_directory(folder_ / "scans", error)) {
+    fail(folder, "cannot be made: " + error.message());
   }
   scan_list_ = open_for_writing(folder_ / "scans.csv");
   scan_list_ << "index,t_begin,t_end,file\n";

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/file.hpp"
+#include "io/pending_path.hpp"
 #include "lio/sensor_data.hpp"
 #include "nvm/geometry/trajectory.hpp"
 

@@ -9,6 +9,7 @@
 #include "io/file.hpp"
 #include "io/line_reader.hpp"
 #include "io/lzf.hpp"
+#include "io/pending_path.hpp"
 
 namespace nvm::io {
 namespace {

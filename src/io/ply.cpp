@@ -7,6 +7,7 @@
 
 #include "io/file.hpp"
 #include "io/line_reader.hpp"
+#include "io/pending_path.hpp"
 
 namespace nvm::io {
 namespace {

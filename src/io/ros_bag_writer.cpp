@@ -11,6 +11,7 @@
 #include <cstring>
 
 #include "io/file.hpp"
+#include "io/pending_path.hpp"
 #include "io/ros_messages.hpp"
 
 namespace nvm::io {
@@ -186,7 +187,7 @@ struct RosBagWriter::Impl {
 };
 
 RosBagWriter::RosBagWriter(const std::string& path, CloudMessageType type)
-    : impl_(new Impl{PendingPath(path), type, {}}) {
+    : impl_(new Impl{PendingPath(path, PendingPath::Kind::kFile), type, {}}) {
   impl_->attempt([&] { impl_->bag.open(impl_->pending.temporary(), rosbag::bagmode::Write); });
 }
 

@@ -10,6 +10,7 @@
 
 #include "io/file.hpp"
 #include "io/line_reader.hpp"
+#include "io/pending_path.hpp"
 
 namespace nvm::io {
 namespace {

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "io/file.hpp"
+#include "io/stays_below.hpp"
 #include "sim/scene_reader.hpp"
 #include "sim/shipped_files.hpp"
 
@@ -58,6 +59,9 @@ void add_file(const SceneText& scene, int depth, SceneReader& reader) {
   for (const std::string& name : document.optional("include", none)) {
     if (depth == kMaxIncludeDepth) {
       document.fail("the included \"" + name + "\" includes itself");
+    }
+    if (!io::stays_below(name)) {
+      document.fail("the included \"" + name + "\" lies outside the folder of the scene");
     }
     const auto included = find_file(folder / name, name);
     if (!included) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <filesystem>
 
+#include "io/stays_below.hpp"
 #include "sim/angles.hpp"
 #include "sim/mesh_file.hpp"
 #include "sim/solid_fields.hpp"
@@ -133,6 +134,9 @@ void SceneReader::add_cylinder(Cylinder cylinder, Fields& item, const Place& pla
 
 void SceneReader::add_mesh(Fields& item, const Place& place) {
   const auto file = item.required<std::string>("file");
+  if (!io::stays_below(file)) {
+    item.fail("the mesh \"" + file + "\" lies outside the folder of the scene");
+  }
   const double scale = item.optional("scale", 1.0, {1e-6, 1e6});
   Mesh mesh = read_mesh(
       (std::filesystem::path(folder_) / file).string(),

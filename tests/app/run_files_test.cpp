@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <string>
@@ -52,62 +51,58 @@ class RunFilesTest : public test::TemporaryFolder {
     }
     return lines;
   }
-
-  std::ptrdiff_t count_files() const {
-    return std::distance(
-        std::filesystem::directory_iterator(path("")), std::filesystem::directory_iterator());
-  }
 };
 
 TEST_F(RunFilesTest, HoldEveryFrameAsSoonAsItIsAdded) {
   auto rng = test::rng();
   const std::vector<FrameResult> frames = random_frames(20, rng);
   RunFiles files(path(""));
-  std::size_t poses = 0;
+  Trajectory expected;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     files.add(frames[i]);
-    poses += has_pose(frames[i]) ? 1 : 0;
-    EXPECT_EQ(lines_of("trajectory.tum").size(), poses);
-    EXPECT_EQ(lines_of("trajectory_kitti.txt").size(), poses);
-    const std::vector<std::string> timing = lines_of("timing.json");
-    ASSERT_EQ(timing.size(), 2 + i + 1);
-    EXPECT_EQ(nlohmann::json::parse(timing.back())["time"], frames[i].time);
+    if (has_pose(frames[i])) {
+      expected.push_back({frames[i].time, frames[i].T_map_body});
+    }
+    EXPECT_EQ(lines_of("trajectory.tum").size(), expected.size());
+    EXPECT_EQ(lines_of("trajectory_kitti.txt").size(), expected.size());
+    const std::vector<std::string> rows = lines_of("frames.csv");
+    ASSERT_EQ(rows.size(), 1 + i + 1);
+    EXPECT_EQ(std::stod(rows.back()), frames[i].time);
+    EXPECT_THAT(rows.back(), ::testing::HasSubstr(frames[i].message));
   }
+  io::write_tum(path("expected"), expected);
+  EXPECT_EQ(lines_of("trajectory.tum"), lines_of("expected"));
 }
 
-TEST_F(RunFilesTest, AreGoneWhenNotFinished) {
-  RunFiles(path("")).add(FrameResult());
-  EXPECT_EQ(count_files(), 0);
+TEST_F(RunFilesTest, FramesHaveACellForEachColumn) {
+  FrameResult frame;
+  frame.status = FrameStatus::kWeak;
+  frame.message = "a \"quoted\" reason, with a comma";
+  frame.times.map_update = 1.25;
+  RunFiles(path("")).add(frame);
+  const std::vector<std::string> lines = lines_of("frames.csv");
+  ASSERT_EQ(lines.size(), 2U);
+  const std::string cell = "\"a \"\"quoted\"\" reason, with a comma\"";
+  EXPECT_THAT(lines[1], ::testing::HasSubstr(",weak," + cell + ","));
+  std::string unquoted = lines[1];
+  unquoted.replace(unquoted.find(cell), cell.size(), "");
+  EXPECT_EQ(
+      std::count(unquoted.begin(), unquoted.end(), ','),
+      std::count(lines[0].begin(), lines[0].end(), ','));
+  EXPECT_THAT(lines[1], ::testing::HasSubstr(",1.250,"));
 }
 
-TEST_F(RunFilesTest, AreCompleteWhenFinished) {
+TEST_F(RunFilesTest, TimingSumsFramesUp) {
   auto rng = test::rng();
-  for (const std::size_t count : {1U, 17U}) {
-    const std::vector<FrameResult> frames = random_frames(count, rng);
-    RunSummary summary;
-    RunFiles files(path(""));
-    for (const FrameResult& frame : frames) {
-      files.add(frame);
-      summary.add(frame);
-    }
-    files.finish(summary, 3.5);
-    EXPECT_EQ(count_files(), 3);
-    Trajectory expected;
-    for (const FrameResult& frame : frames) {
-      if (has_pose(frame)) {
-        expected.push_back({frame.time, frame.T_map_body});
-      }
-    }
-    io::write_tum(path("expected"), expected);
-    EXPECT_EQ(lines_of("trajectory.tum"), lines_of("expected"));
-    std::filesystem::remove(path("expected"));
-    std::ifstream file(path("timing.json"));
-    const auto timing = nlohmann::json::parse(file);
-    EXPECT_EQ(timing["scans"], count);
-    EXPECT_EQ(timing["wall_seconds"], 3.5);
-    ASSERT_EQ(timing["frames"].size(), count);
-    EXPECT_EQ(timing["frames"].back()["total_ms"], frames.back().times.total());
+  RunSummary summary;
+  for (const FrameResult& frame : random_frames(17, rng)) {
+    summary.add(frame);
   }
+  write_timing(path(""), summary, 3.5);
+  std::ifstream file(path("timing.json"));
+  const auto timing = nlohmann::json::parse(file);
+  EXPECT_EQ(timing["scans"], 17);
+  EXPECT_EQ(timing["wall_seconds"], 3.5);
 }
 
 TEST(RunSummaryTest, AgreesWithAllFramesTogether) {
@@ -150,6 +145,67 @@ TEST(RunSummaryTest, WarnsOfEachKindOfTroubleWithItsFirstFrame) {
         ::testing::Contains(::testing::AllOf(
             ::testing::HasSubstr(lio::name(status)), ::testing::EndsWith(first->message))));
   }
+}
+
+// Frames a tenth of a second apart, of the statuses that letters stand for: t, w, l, i; T: tracking
+// with two directions open.
+RunSummary summary_of(const std::string& letters) {
+  RunSummary summary;
+  for (const char letter : letters) {
+    FrameResult frame;
+    frame.time = 1.7e9 + 0.1 * static_cast<double>(summary.frames());
+    frame.status = letter == 'w'   ? FrameStatus::kWeak
+                   : letter == 'l' ? FrameStatus::kLost
+                   : letter == 'i' ? FrameStatus::kInitializing
+                                   : FrameStatus::kTracking;
+    frame.degenerate_directions = letter == 'T' ? 2 : 0;
+    frame.message = letter == 't' ? "" : "why";
+    summary.add(frame);
+  }
+  return summary;
+}
+
+TEST(RunSummaryTest, NamesTheSecondsOfTheRun) {
+  EXPECT_THAT(
+      summary_of("ittwwwtttTTTtlt").warnings(),
+      ::testing::ElementsAre(
+          "3 of 15 scans weak (their poses are predictions): 0.3 to 0.5 s; why",
+          "1 of 15 scans lost (they have no pose): at 1.3 s; why",
+          ::testing::AllOf(
+              ::testing::HasSubstr("3 of 15 scans do not tell all directions"),
+              ::testing::EndsWith(": 0.9 to 1.1 s"))));
+}
+
+TEST(RunSummaryTest, TellsTheLongestTimesOfMany) {
+  const std::vector<std::string> warnings = summary_of("wtwwwtwtwwwwwtwtwwtwwwwtt").warnings();
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_THAT(
+      warnings[0],
+      ::testing::HasSubstr("0.2 to 0.4 s, 0.8 to 1.2 s, 1.6 to 1.7 s, 1.9 to 2.2 s and 3 shorter"));
+}
+
+TEST(RunSummaryTest, UsableFramesRestOnTheirScanInAllDirections) {
+  EXPECT_EQ(summary_of("iitttTTwl").usable(), 3U);
+  EXPECT_EQ(
+      summary_of("iitttTTwl").counts(),
+      "2 initializing, 1 weak, 1 lost, 2 with unobserved directions");
+}
+
+TEST(RunSummaryTest, WarnsOfPointsThatAreNotInTheMap) {
+  RunSummary summary;
+  FrameResult frame;
+  frame.status = FrameStatus::kTracking;
+  frame.points = 100;
+  frame.inserted.out_of_range = 70;
+  frame.inserted.no_normal = 30;
+  summary.add(frame);
+  summary.add(frame);
+  EXPECT_THAT(summary.warnings(), ::testing::ElementsAre(::testing::StartsWith("140 points")));
+  EXPECT_THAT(summary.inserted().why_empty(), ::testing::StartsWith("140 of 200 returns lie more"));
+  frame.inserted.no_normal = 1000;
+  summary.add(frame);
+  EXPECT_THAT(summary.inserted().why_empty(), ::testing::HasSubstr("no surface"));
+  EXPECT_THAT(InsertTotals().why_empty(), ::testing::HasSubstr("lidar.min_range"));
 }
 
 }  // namespace

@@ -231,7 +231,7 @@ TEST(Schema, PrintedConfigurationReadsBackTheSame) {
   Schema schema;
   bind(schema, options);
   const std::string yaml = schema.to_yaml();
-  EXPECT_THAT(yaml, HasSubstr("  # Edge of a voxel [m]: a number from 0.01 to 100.\n"));
+  EXPECT_THAT(yaml, HasSubstr("  # Edge of a voxel [m]. Allowed: a number from 0.01 to 100.\n"));
   EXPECT_THAT(yaml, HasSubstr("  max_angle_deg: 90\n"));
 
   Options copy;

@@ -133,6 +133,34 @@ TEST_F(EvaluationOfRuns, TakesAnEmptyMapForOneWithoutWalls) {
   EXPECT_FALSE(summarize(run.map.walls).absolute_error.has_value());
 }
 
+TEST_F(EvaluationOfRuns, ScoresABareTrajectory) {
+  add_run("nvm", test::sample_wall(random_, wall_));
+  add_run("bare", OrientedCloud());
+  std::filesystem::remove(folder_ / "bare" / "map.ply");
+  for (const std::string name : {"bare", "bare/trajectory.tum"}) {
+    const RunEvaluation run = evaluate(name);
+    EXPECT_LT(run.trajectory->absolute.max, 1e-6);
+    EXPECT_NEAR(run.trajectory->seconds, 9.9, 1e-9);
+    EXPECT_FALSE(run.has_map);
+    write_report({read_truth(truth_.string()), {evaluate("nvm"), run}}, (folder_ / "r").string());
+    const auto json =
+        nlohmann::json::parse(io::read_file((folder_ / "r/evaluation.json").string()));
+    EXPECT_TRUE(json["runs"][1]["map"].is_null());
+    EXPECT_FALSE(json["runs"][0]["map"].is_null());
+  }
+  EXPECT_EQ(evaluate("bare/trajectory.tum").name, "trajectory");
+  EvaluationOptions options;
+  options.regions.resize(1);
+  EXPECT_THROW(evaluate("bare", options), std::runtime_error);
+  EXPECT_THROW(evaluate_run((folder_ / "bare").string(), std::nullopt, {}), std::runtime_error);
+}
+
+TEST_F(EvaluationOfRuns, NeedsNoSceneToScoreTrajectories) {
+  add_run("nvm", OrientedCloud());
+  std::filesystem::remove(truth_ / "scene.json");
+  EXPECT_LT(evaluate("nvm").trajectory->absolute.max, 1e-6);
+}
+
 TEST_F(EvaluationOfRuns, LeavesOutPointsThatAreNotNumbers) {
   OrientedCloud cloud = test::sample_wall(random_, wall_);
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -145,7 +173,7 @@ TEST_F(EvaluationOfRuns, LeavesOutPointsThatAreNotNumbers) {
 }
 
 TEST_F(EvaluationOfRuns, SaysWhatIsWrongWithARun) {
-  EXPECT_THAT(error_of("missing"), HasSubstr("map.ply"));
+  EXPECT_THAT(error_of("missing"), HasSubstr("trajectory.tum"));
   add_run("nvm", OrientedCloud());
   const auto trajectory = folder_ / "nvm" / "trajectory.tum";
   test::write_text(trajectory, "1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n");

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The nvm authors
 #include "eval/trajectory_error.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <cmath>
 #include <limits>
@@ -57,6 +57,48 @@ TEST(Association, LeavesOutPosesBeyondTheTruthAndInItsGaps) {
   const auto association = associate(loop(0.05, 7.05, 10.0), truth);
   EXPECT_EQ(association.pairs.size(), 30U);
   EXPECT_EQ(association.unmatched, 41U);
+}
+
+// Straight lines between true poses a second apart would be off by centimetres.
+TEST(Association, InterpolatesTheEstimateAtTheTimesOfASparseTruth) {
+  const auto association = associate(loop(0.013, 9.9, 10.0), loop(0.5, 12.5, 1.0));
+  EXPECT_TRUE(association.interpolates_estimate);
+  EXPECT_EQ(association.pairs.size(), 10U);
+  EXPECT_EQ(association.unmatched, 3U);
+  EXPECT_EQ(association.max_gap, 0.25);
+  for (const PosePair& pair : association.pairs) {
+    const Pose difference = pair.T_map_body.inverse() * pair.T_world_body;
+    EXPECT_LT(difference.translation().norm(), 3e-3);
+  }
+}
+
+TEST(Association, InterpolatesBetweenPosesThatAreAllFarApartUpToALimit) {
+  const Trajectory estimate = loop(0.1, 9.1, 1.0);
+  EXPECT_EQ(associate(estimate, loop(0.0, 10.0, 1.0)).pairs.size(), 10U);
+  EXPECT_EQ(associate(estimate, loop(0.0, 10.0, 1.0)).max_gap, 1.5);
+  EXPECT_EQ(associate(estimate, loop(0.0, 10.0, 1.0), 0.9).pairs.size(), 0U);
+  EXPECT_EQ(associate(loop(0.1, 9.1, 0.2), loop(0.0, 10.0, 0.25)).pairs.size(), 0U);
+  EXPECT_EQ(associate(loop(0.1, 9.1, 0.2), loop(0.0, 10.0, 0.25), 4.0).pairs.size(), 3U);
+}
+
+TEST(Association, SaysWhyNothingIsPaired) {
+  const auto shifted = [](double offset) {
+    Trajectory trajectory = loop(0.0, 10.0, 10.0);
+    for (StampedPose& pose : trajectory) {
+      pose.time += offset;
+    }
+    return trajectory;
+  };
+  EXPECT_THAT(
+      why_unmatched(shifted(1000.0), shifted(1.7e9)),
+      ::testing::AllOf(
+          ::testing::HasSubstr("from 1000.000 to 1010.000 s (since a start)"),
+          ::testing::HasSubstr("from 1700000000.000 to 1700000010.000 s (UNIX time)"),
+          ::testing::HasSubstr("--time-offset=-1699999000.000")));
+  EXPECT_THAT(
+      why_unmatched(shifted(1.7e9), shifted(1.7e18)), ::testing::HasSubstr("in nanoseconds"));
+  EXPECT_THAT(why_unmatched(shifted(0.0), shifted(0.05)), ::testing::HasSubstr("--max-gap"));
+  EXPECT_THAT(why_unmatched({}, shifted(0.0)), ::testing::HasSubstr("holds no poses"));
 }
 
 TEST(Association, LeavesOutPosesThatAreNotNumbers) {

@@ -15,6 +15,7 @@
 #include "io/file.hpp"
 #include "io/map_cloud.hpp"
 #include "io/pcd.hpp"
+#include "io/pending_path.hpp"
 #include "io/ply.hpp"
 #include "io/point_records.hpp"
 #include "io/temporary_folder.hpp"

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include "app/map_origin.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "io/line_reader.hpp"
+#include "io/pending_path.hpp"
+
+namespace nvm::app {
+
+namespace {
+
+constexpr const char* kName = "map_origin.txt";
+
+}  // namespace
+
+Eigen::Vector3d choose_origin(const Trajectory& poses) {
+  constexpr double kFar = 1e4;  // [m]
+  constexpr double kStep = 100.0;
+  if (poses.empty()) {
+    return Eigen::Vector3d::Zero();
+  }
+  const Eigen::Vector3d first = poses.front().pose.translation();
+  return first.cwiseAbs().maxCoeff() < kFar
+             ? Eigen::Vector3d(Eigen::Vector3d::Zero())
+             : Eigen::Vector3d(kStep * (first / kStep).array().round());
+}
+
+Trajectory moved(Trajectory trajectory, const Eigen::Vector3d& offset) {
+  for (StampedPose& stamped : trajectory) {
+    stamped.pose.translation() += offset;
+  }
+  return trajectory;
+}
+
+void write_origin(const std::string& folder, const Eigen::Vector3d& origin) {
+  if (origin.isZero(0.0)) {
+    return;
+  }
+  io::AtomicFile file(folder + "/" + kName);
+  file.stream() << "# x y z [m] of the origin of map.nvm in the coordinates of the poses\n"
+                << fmt::format("{} {} {}\n", origin.x(), origin.y(), origin.z());
+  file.commit();
+}
+
+Eigen::Vector3d read_origin(const std::string& map) {
+  const std::filesystem::path path = std::filesystem::path(map).parent_path() / kName;
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  if (!std::filesystem::exists(path)) {
+    return origin;
+  }
+  io::LineReader lines(path.string());
+  const auto words = lines.next();
+  if (!words || words->size() != 3) {
+    lines.fail("must be the three coordinates of an origin");
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    origin[axis] = lines.number((*words)[static_cast<std::size_t>(axis)]);
+  }
+  return origin;
+}
+
+}  // namespace nvm::app

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+#include "nvm/geometry/trajectory.hpp"
+
+namespace nvm::app {
+
+/// Where a map that is built from `poses` should have its origin [m]: at zero, or near the first
+/// pose, in whole hundreds of metres, when that is too far away for the map, as in UTM.
+Eigen::Vector3d choose_origin(const Trajectory& poses);
+
+/// `trajectory` with all positions moved by `offset` [m].
+Trajectory moved(Trajectory trajectory, const Eigen::Vector3d& offset);
+
+/// Writes `origin` beside the map.nvm in `folder`, unless it is zero. Throws std::runtime_error.
+void write_origin(const std::string& folder, const Eigen::Vector3d& origin);
+
+/// The origin [m] that was written beside the map file `map`; zero when there is none. Throws
+/// std::runtime_error when the file is malformed.
+Eigen::Vector3d read_origin(const std::string& map);
+
+}  // namespace nvm::app

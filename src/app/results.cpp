@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include "app/results.hpp"
+
+#include <fmt/format.h>
+
+#include <exception>
+#include <filesystem>
+#include <optional>
+#include <system_error>
+
+#include "app/doing.hpp"
+#include "app/failure.hpp"
+#include "app/map_files.hpp"
+#include "app/map_origin.hpp"
+#include "app/progress_bar.hpp"
+#include "app/say.hpp"
+#include "io/file.hpp"
+
+namespace nvm::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+}  // namespace
+
+void check_apart(const std::string& input, const std::string& folder) {
+  std::error_code ignored;
+  for (const char* below : {"", "/scans", "/velodyne"}) {
+    if (fs::equivalent(input + below, folder, ignored)) {
+      io::fail(
+          folder, "is where the scans are; give --out another folder, as in " + folder + "/out");
+    }
+  }
+}
+
+void announce_unfinished(const io::ResultFolder& results) {
+  for (const std::string& path : results.unfinished()) {
+    say("note: " + path + ": was left by a run that was killed; it goes when this one is complete");
+  }
+}
+
+void print_notes(const io::SequenceInfo& info) {
+  for (const std::string& note : info.notes) {
+    say("note: " + note);
+  }
+}
+
+Ending use_scans(
+    io::SequenceReader& reader,
+    const Interruption& interruption,
+    const std::function<std::string(const lio::Scan&)>& use) {
+  Ending ending;
+  ProgressBar progress(reader.info().scan_count);
+  std::size_t scans = 0;
+  try {
+    while (interruption.signal() == 0) {
+      const bool is_used = doing(fmt::format("working on scan {}", ++scans), [&] {
+        const std::optional<lio::Scan> scan = reader.next_scan();
+        if (scan) {
+          progress.step(use(*scan));
+        }
+        return scan.has_value();
+      });
+      if (!is_used) {
+        return ending;
+      }
+    }
+    ending.signal = interruption.signal();
+  } catch (const std::exception& error) {
+    ending.error = error.what();
+  }
+  return ending;
+}
+
+void attempt(
+    const std::vector<std::string>& files, Ending& ending, const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const std::exception& error) {
+    ending.error += (ending.error.empty() ? "" : "; ") + std::string(error.what());
+    for (const std::string& file : files) {
+      std::error_code ignored;
+      fs::remove(file, ignored);
+    }
+  }
+}
+
+void publish(
+    io::ResultFolder& results,
+    const lio::LioMap& map,
+    const Eigen::Vector3d& origin,
+    Ending& ending) {
+  const std::string& folder = results.path();
+  attempt({folder + "/map.ply", folder + "/map.nvm"}, ending, [&] {
+    doing("writing the map", [&] {
+      write_map_files(map, origin, folder);
+      write_origin(folder, origin);
+    });
+  });
+  results.publish();
+}
+
+void check_ending(const Ending& ending, const std::string& folder) {
+  if (!ending.error.empty()) {
+    throw Failure(
+        fmt::format("{} (what could be saved is in {})", ending.error, folder), kExitError);
+  }
+  if (ending.signal != 0) {
+    throw Failure(
+        fmt::format("interrupted: {} holds whole results of the scans until then", folder),
+        kExitSignal + ending.signal);
+  }
+}
+
+}  // namespace nvm::app
