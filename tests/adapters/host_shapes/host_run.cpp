@@ -48,7 +48,7 @@ void evaluate(
 }  // namespace
 
 HostRun run_host(const std::string& folder, const HostShape& shape, HostMapKind kind) {
-  const auto sequence = io::open_nvm_sequence(folder, {});
+  const auto sequence = io::open_nvm_sequence(folder);
   HostOdometry host(shape, kind, sequence->info().T_imu_lidar);
   constexpr double kAhead = 0.01;  // the reading after the scan's end [s]
   HostRun run;
