@@ -232,8 +232,8 @@ std::string Schema::to_yaml(const std::string& indent) const {
       yaml += comment(key->doc_ + ".", indent) + indent + key->name_ + ":\n" +
               key->section_->to_yaml(indent + "  ");
     } else {
-      yaml += comment(key->doc_ + ". Allowed: " + key->allowed_ + ".", indent) + indent + key->name_ + ": " +
-              indented(key->print_(), indent + "  ") + "\n";
+      yaml += comment(key->doc_ + ". Allowed: " + key->allowed_ + ".", indent) + indent +
+              key->name_ + ": " + indented(key->print_(), indent + "  ") + "\n";
     }
   }
   return yaml;
