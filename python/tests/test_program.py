@@ -45,7 +45,7 @@ def standing_still(rng, livox=False):
                 noise = rng.normal(size=6) * 0.002
                 yield "/imu", IMU, stamp + 0.001, m.imu(stamp, noise[:3], noise[3:] + (0, 0, 9.81))
             if livox:
-                points = room_records(rng, LIVOX_POINT, 1500)
+                points = room_records(rng, LIVOX_POINT)
                 points["offset_time"] = np.linspace(0, 99_000_000, len(points))
                 yield "/livox/lidar", LIVOX, time + 0.1, m.livox(time, points, "lidar")
             else:
@@ -116,8 +116,7 @@ def test_the_program_itself_gives_the_same_bits(reference, tmp_path):
 @pytest.mark.parametrize("form", ["bag", "mcap"])
 def test_livox_messages_run(tmp_path, form):
     done = nvm("run", write(tmp_path / "livox", form, seeded(livox=True)), "--out", tmp_path / "out")
-    # 3: so few of its points lie on the floor that a third of the scans leave directions open
-    assert done.returncode in (0, 3), done.stderr
+    assert done.returncode == 0, done.stderr
     trajectory(tmp_path / "out")
 
 
