@@ -15,7 +15,7 @@
 #include "adapters/reference_search.hpp"
 #include "support/random_cloud.hpp"
 #include "support/rng.hpp"
-#include "support/thread_sanitizer.hpp"
+#include "support/sanitizers.hpp"
 
 namespace faster_lio {
 namespace {

@@ -17,7 +17,7 @@
 #include "nvm/geometry/pose.hpp"
 #include "support/random_cloud.hpp"
 #include "support/rng.hpp"
-#include "support/thread_sanitizer.hpp"
+#include "support/sanitizers.hpp"
 
 namespace kiss_icp {
 namespace {

@@ -13,7 +13,7 @@
 #include "adapters/pcl/normal_estimation.hpp"
 #include "support/random_cloud.hpp"
 #include "support/rng.hpp"
-#include "support/thread_sanitizer.hpp"
+#include "support/sanitizers.hpp"
 
 namespace nvm {
 namespace {

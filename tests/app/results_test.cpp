@@ -13,6 +13,7 @@
 #include "io/map_cloud.hpp"
 #include "io/trajectory_io.hpp"
 #include "program_fixture.hpp"
+#include "support/sanitizers.hpp"
 
 namespace nvm::app {
 namespace {
@@ -101,6 +102,7 @@ TEST_F(ResultsTest, AFullDiskAtTheMapKeepsTheTrajectory) {
 }
 
 TEST_F(ResultsTest, AFullDiskFromTheBeginLeavesTheOldResults) {
+  NVM_SKIP_UNDER_SANITIZERS();
   ASSERT_EQ(nvm(run("")).status, 0);
   const Outcome outcome = nvm(run(""), "ulimit -f 0; ");
   EXPECT_EQ(outcome.status, 1);
@@ -219,6 +221,7 @@ TEST_F(ResultsTest, ScansAndResultsLieApart) {
 }
 
 TEST_F(ResultsTest, MemoryThatRunsOutIsNamedWithWhatItIsFor) {
+  NVM_SKIP_UNDER_SANITIZERS();
   const Outcome outcome = nvm(run("--set map.capacity=60000000"), "ulimit -v 2000000; ");
   EXPECT_EQ(outcome.status, 1);
   EXPECT_THAT(outcome.errors, HasSubstr("making a map of map.capacity=60000000 voxels"));

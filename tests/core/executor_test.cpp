@@ -17,7 +17,7 @@
 #include "nvm/core/executor_openmp.hpp"
 #include "nvm/core/executor_tbb.hpp"
 #include "support/rng.hpp"
-#include "support/thread_sanitizer.hpp"
+#include "support/sanitizers.hpp"
 
 namespace nvm::test {
 namespace {

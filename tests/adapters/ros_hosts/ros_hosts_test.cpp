@@ -11,7 +11,7 @@
 #include "adapters/ct_lio/ct_lio_map.hpp"
 #include "adapters/ros_hosts/fast_lio_node.hpp"
 #include "support/rng.hpp"
-#include "support/thread_sanitizer.hpp"
+#include "support/sanitizers.hpp"
 
 // ct-lio has this at global scope.
 struct voxel {
