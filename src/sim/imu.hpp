@@ -18,12 +18,17 @@ struct TriadNoise {
   double initial_bias = 0.0;      ///< standard deviation of the bias at the start [unit]
   double scale_error = 0.0;       ///< standard deviation of the scale of each axis
   double misalignment_deg = 0.0;  ///< standard deviation of the turn about each axis
+  double vibration = 0.0;         ///< amplitude of what the carrier shakes it by [unit]
 };
 
 /// A MEMS IMU. The defaults are those of a good consumer part (Bosch BMI088 class).
 struct ImuOptions {
-  double rate = 200.0;    ///< [Hz]
-  double gravity = 9.81;  ///< [m/s^2]
+  double rate = 200.0;                ///< [Hz]
+  double gravity = 9.81;              ///< [m/s^2]
+  double grade = 1.0;                 ///< factor of all errors of both triads
+  double vibration_frequency = 87.0;  ///< [Hz]
+  double clock_offset = 0.0;          ///< its stamps are late by this [s]
+  double clock_jitter = 0.0;          ///< standard deviation of a stamp [s]; their order holds
   TriadNoise gyro{2.4e-4, 1e-5, 2e-3, 0.0, 0.0};
   TriadNoise accelerometer{1.7e-3, 1e-4, 3e-2, 0.0, 0.0};
 };

@@ -17,11 +17,18 @@
 namespace nvm::sim {
 
 /// Where a return really comes from.
-enum class Origin : std::uint8_t { kSurface, kMixedPixel, kOutlier };
+enum class Origin : std::uint8_t {
+  kSurface,
+  kPerson,
+  kMirror,  ///< a surface seen in a mirror
+  kMixedPixel,
+  kBlooming,  ///< the range of a bright surface beside the beam
+  kOutlier
+};
 
 struct ReturnTruth {
   Origin origin = Origin::kSurface;
-  SurfaceId surface;  ///< that the beam's centre hits
+  SurfaceId surface;  ///< that the beam's centre hits; of a person: none
 };
 
 /// A scan, and the truth about each of its points.
@@ -60,14 +67,33 @@ class Lidar {
     ReturnTruth truth;
   };
 
-  std::optional<Return> shoot(
-      const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, Random& random) const;
-  double measured_range(const RayHit& hit, double cosine, Random& random) const;
-  std::optional<double> mixed_range(
-      const RayHit& hit,
-      const Eigen::Vector3d& origin,
-      const Eigen::Vector3d& direction,
-      Random& random) const;
+  /// A beam's centre on its way, in the world frame.
+  struct Shot {
+    std::uint64_t index = 0;    ///< within the sequence
+    double time = 0.0;          ///< [s]
+    Eigen::Vector3d origin;     ///< [m]
+    Eigen::Vector3d direction;  ///< unit
+  };
+
+  /// What throws the light back.
+  struct Echo {
+    double range = 0.0;  ///< as long as the light's way [m]
+    Eigen::Vector3d normal;
+    double cosine = 0.0;  ///< of the incidence
+    double reflectivity = 0.0;
+    double mirror = 0.0;
+    ReturnTruth truth;
+  };
+
+  std::optional<Return> shoot(const Shot& shot) const;
+  std::optional<Echo> hear(const Shot& shot, double pass, Random& luck) const;
+  std::optional<Echo> first_surface(const Shot& ray, double pass) const;
+  double measured_range(const Echo& echo, Random& random) const;
+  std::optional<double> mixed_range(const Echo& echo, const Shot& shot, Random& random) const;
+  std::optional<double> bright_range(const Shot& shot, Random& random) const;
+
+  /// A shot `offset` [rad] beside that one, on a side drawn by chance.
+  static Shot beside(const Shot& shot, double offset, Random& random);
 
   const SensorModel& sensor_;
   LidarOptions options_;

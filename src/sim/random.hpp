@@ -8,7 +8,15 @@
 namespace nvm::sim {
 
 /// What a random number is drawn for: separate streams never share numbers.
-enum class Stream : std::uint64_t { kRoute, kGait, kLidar, kGyro, kAccelerometer };
+enum class Stream : std::uint64_t {
+  kRoute,
+  kGait,
+  kLidar,
+  kGyro,
+  kAccelerometer,
+  kImuClock,
+  kLidarLuck,  ///< with mirrors and bright surfaces
+};
 
 /// Random numbers that depend on (seed, stream, index) alone and not on what was drawn before, so
 /// that points can be simulated in any order and on any number of threads with the same result.

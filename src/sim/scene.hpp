@@ -16,6 +16,7 @@ namespace nvm::sim {
 struct Material {
   double reflectivity = 0.5;  ///< diffuse, at the LiDAR's wavelength, 0 to 1
   double transmission = 0.0;  ///< share of the rays that pass as if nothing was there, 0 to 1
+  double mirror = 0.0;        ///< share of the rays that are thrown back as by a mirror, 0 to 1
 };
 
 struct Box {
@@ -75,6 +76,14 @@ struct Route {
   int laps = 1;                            ///< of a closed route (first waypoint = last)
 };
 
+/// Somebody who walks to and fro along a path: an upright cylinder.
+struct Person {
+  std::vector<Eigen::Vector3d> path;  ///< feet [m]
+  double speed = 1.0;                 ///< [m/s]
+  double radius = 0.22;               ///< [m]
+  double height = 1.75;               ///< [m]
+};
+
 /// Everything that rays can hit, the thin walls among it that are ground truth, and a route.
 struct Scene {
   std::string name;
@@ -83,6 +92,7 @@ struct Scene {
   std::vector<Cylinder> cylinders;
   std::vector<Mesh> meshes;
   std::vector<WallPiece> wall_pieces;
+  std::vector<Person> people;
   Route route;
 };
 

@@ -33,6 +33,20 @@ std::vector<std::pair<Pose, std::string>> read_copies(Fields& item) {
   return copies;
 }
 
+/// A list of at least two points; one without a height is as high as the one before.
+std::vector<Eigen::Vector3d> read_path(Fields& fields, const std::string& key) {
+  const config::Value* value = fields.take(key);
+  const auto items = value == nullptr ? std::nullopt : value->items();
+  if (!items || items->size() < 2) {
+    fields.fail("\"" + key + "\" must be a list of at least two points");
+  }
+  std::vector<Eigen::Vector3d> path;
+  for (const config::Value& item : *items) {
+    path.push_back(Fields::to_point(item, path.empty() ? 0.0 : path.back().z()));
+  }
+  return path;
+}
+
 }  // namespace
 
 void SceneReader::add(Fields& document, const std::string& folder) {
@@ -43,6 +57,7 @@ void SceneReader::add(Fields& document, const std::string& folder) {
   }
   scene_.description = document.optional("description", scene_.description);
   add_solids(document, {});
+  read_people(document);
   if (const config::Value* route = document.take("route"); route != nullptr) {
     read_route(Fields(*route));
   }
@@ -54,7 +69,19 @@ void SceneReader::read_materials(Fields& document) {
     Material& material = materials_[name];
     material.reflectivity = fields.optional("reflectivity", material.reflectivity, kShare);
     material.transmission = fields.optional("transmission", material.transmission, kShare);
+    material.mirror = fields.optional("mirror", material.mirror, kShare);
     fields.finish();
+  }
+}
+
+void SceneReader::read_people(Fields& document) {
+  for (Fields& item : document.items("people")) {
+    Person& person = scene_.people.emplace_back();
+    person.path = read_path(item, "path");
+    person.speed = item.optional("speed", person.speed, {0.0, 10.0});
+    person.radius = item.optional("radius", person.radius, {0.01, 2.0});
+    person.height = item.optional("height", person.height, {0.1, 3.0});
+    item.finish();
   }
 }
 
@@ -62,16 +89,7 @@ void SceneReader::read_route(Fields route) {
   Route& result = scene_.route;
   result.speed = route.optional("speed", result.speed, {0.5, 1.1});
   result.laps = route.optional("laps", result.laps, {1, 100});
-  const config::Value* waypoints = route.take("waypoints");
-  const auto items = waypoints == nullptr ? std::nullopt : waypoints->items();
-  if (!items || items->size() < 2) {
-    route.fail("\"waypoints\" must be a list of at least two points");
-  }
-  result.waypoints.clear();
-  for (const config::Value& item : *items) {
-    const double floor = result.waypoints.empty() ? 0.0 : result.waypoints.back().z();
-    result.waypoints.push_back(Fields::to_point(item, floor));
-  }
+  result.waypoints = read_path(route, "waypoints");
   route.finish();
 }
 

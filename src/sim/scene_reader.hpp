@@ -30,6 +30,7 @@ class SceneReader {
   };
 
   void read_materials(Fields& document);
+  void read_people(Fields& document);
   void read_route(Fields route);
   Material material_of(Fields& item) const;
 

@@ -42,6 +42,23 @@ void bind_lidar(Schema& schema, LidarOptions& lidar) {
       kLength,
       "More of it at slanting incidence: times tan(angle) [m]");
   schema.add(
+      "range_bias_per_tangent",
+      lidar.range_bias_per_tangent,
+      {-1.0, 1.0},
+      "Longer at slanting incidence, by this times tan(angle) [m]");
+  schema.add(
+      "range_bias_dark",
+      lidar.range_bias_dark,
+      {-1.0, 1.0},
+      "Longer on dark surfaces, by this times 1 - reflectivity [m]");
+  schema.add(
+      "range_quantum", lidar.range_quantum, {0.0, 1.0}, "Ranges are multiples of it [m]; 0: any");
+  schema.add(
+      "blooming",
+      lidar.blooming,
+      kProbability,
+      "Probability that a shot which passes a bright surface closely returns its range");
+  schema.add(
       "mixed_pixels",
       lidar.mixed_pixels,
       kProbability,
@@ -74,6 +91,20 @@ void bind_triad(Schema& schema, TriadNoise& triad, const std::string& unit) {
       triad.misalignment_deg,
       {0.0, 20.0},
       "Standard deviation of the turn about each axis");
+  schema.add(
+      "vibration", triad.vibration, kSize, "Amplitude of the carrier's shaking [" + unit + "]");
+}
+
+void bind_imu(Schema& schema, ImuOptions& imu) {
+  constexpr config::Range kClock{-1.0, 1.0};
+  schema.add("rate", imu.rate, {10.0, 10000.0}, "[Hz]");
+  schema.add("gravity", imu.gravity, {0.0, 100.0}, "[m/s^2]");
+  schema.add("grade", imu.grade, {0.0, 100.0}, "Factor of all errors of gyro and accelerometer");
+  schema.add("vibration_frequency", imu.vibration_frequency, {0.0, 10000.0}, "[Hz]");
+  schema.add("clock_offset", imu.clock_offset, kClock, "Its stamps are late by this [s]");
+  schema.add("clock_jitter", imu.clock_jitter, {0.0, 1.0}, "Standard deviation of a stamp [s]");
+  bind_triad(schema.section("gyro", "Gyroscopes"), imu.gyro, "rad/s");
+  bind_triad(schema.section("accelerometer", "Accelerometers"), imu.accelerometer, "m/s^2");
 }
 
 }  // namespace
@@ -88,11 +119,7 @@ SimulationOptions options_for(const std::string& sensor) {
 void bind(Schema& schema, SimulationOptions& options) {
   bind_motion(schema.section("motion", "How the sensor is carried"), options.motion);
   bind_lidar(schema.section("lidar", "How the LiDAR errs"), options.lidar);
-  Schema& imu = schema.section("imu", "How the IMU errs");
-  imu.add("rate", options.imu.rate, {10.0, 10000.0}, "[Hz]");
-  imu.add("gravity", options.imu.gravity, {0.0, 100.0}, "[m/s^2]");
-  bind_triad(imu.section("gyro", "Gyroscopes"), options.imu.gyro, "rad/s");
-  bind_triad(imu.section("accelerometer", "Accelerometers"), options.imu.accelerometer, "m/s^2");
+  bind_imu(schema.section("imu", "How the IMU errs"), options.imu);
 }
 
 }  // namespace nvm::sim

@@ -130,5 +130,47 @@ TEST(Imu, ScaleAndMisalignmentDistortTheReadings) {
   EXPECT_GT((distorted[i].accel - truth[i].accel).norm(), 1e-3);
 }
 
+TEST(Imu, GradeScalesAllErrors) {
+  ImuOptions options;
+  options.gyro.scale_error = 0.0;
+  const auto good = errors_at_rest(options, 3);
+  options.grade = 4.0;
+  const auto poor = errors_at_rest(options, 3);
+  ASSERT_EQ(good.size(), poor.size());
+  for (std::size_t i = 0; i < good.size(); i += 97) {
+    EXPECT_LT((poor[i] - 4.0 * good[i]).norm(), 1e-12);
+  }
+}
+
+TEST(Imu, VibratesAtItsFrequencyAndAmplitude) {
+  ImuOptions options = perfect();
+  options.rate = 1000.0;
+  options.vibration_frequency = 50.0;
+  options.gyro.vibration = 0.2;
+  const auto errors = errors_at_rest(options, 3);
+  EXPECT_NEAR(errors[5].norm(), 0.2, 1e-9);  // a quarter of the 20 ms
+  EXPECT_LT(errors[10].norm(), 1e-9);
+  EXPECT_LT((errors[5] + errors[15]).norm(), 1e-9);
+}
+
+TEST(Imu, ClockIsLateAndUnsteadyButKeepsTheOrder) {
+  const Motion motion(long_route(), {}, 1, 10.0);
+  ImuOptions options;
+  const auto exact = simulate_imu(motion, options, 1);
+  options.clock_offset = -0.02;
+  options.clock_jitter = 0.004;
+  const auto late = simulate_imu(motion, options, 1);
+  ASSERT_EQ(late.size(), exact.size());
+  double mean = 0.0;
+  for (std::size_t i = 0; i < late.size(); ++i) {
+    mean += (late[i].time - exact[i].time) / static_cast<double>(late.size());
+    EXPECT_EQ(late[i].gyro, exact[i].gyro);
+    if (i > 0) {
+      ASSERT_GT(late[i].time, late[i - 1].time);
+    }
+  }
+  EXPECT_NEAR(mean, -0.02, 0.001);
+}
+
 }  // namespace
 }  // namespace nvm::sim

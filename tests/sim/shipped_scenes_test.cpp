@@ -16,7 +16,18 @@ namespace {
 TEST(ShippedScenes, AreTheDocumentedOnes) {
   const auto names = shipped_scenes();
   const std::set<std::string> expected{
-      "cafe", "garage", "office", "rooms", "seven_walls", "stairwell", "wall10", "wall15", "wall5"};
+      "cafe",
+      "flat",
+      "flat_blank",
+      "flat_busy",
+      "garage",
+      "office",
+      "rooms",
+      "seven_walls",
+      "stairwell",
+      "wall10",
+      "wall15",
+      "wall5"};
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()), expected);
 }
 
@@ -86,6 +97,7 @@ TEST(ShippedScenes, HaveTheirThicknesses) {
   EXPECT_EQ(
       thicknesses("seven_walls"), std::set<double>({0.03, 0.05, 0.07, 0.09, 0.11, 0.13, 0.15}));
   EXPECT_EQ(thicknesses("rooms"), std::set<double>({0.04, 0.10}));
+  EXPECT_EQ(thicknesses("flat"), std::set<double>({0.04, 0.10}));
   EXPECT_EQ(thicknesses("cafe"), std::set<double>({0.04}));
   EXPECT_EQ(thicknesses("office"), std::set<double>({0.075}));
   EXPECT_EQ(thicknesses("stairwell"), std::set<double>({0.10, 0.20}));
