@@ -9,7 +9,6 @@
 #include <set>
 
 #include "sim/angles.hpp"
-#include "sim/people.hpp"
 #include "sim/scene_file.hpp"
 
 namespace nvm::sim {
@@ -231,124 +230,6 @@ TEST_F(LidarInARoom, IntensityFollowsReflectivityAndIncidence) {
     EXPECT_GE(point.intensity, 0.0F);
     EXPECT_LE(point.intensity, 127.5F);
   }
-}
-
-/// A long hall, with `more` in it; seen by a Mid-360 near its middle at 6 s.
-SimulatedScan scan_hall(const std::string& more, LidarOptions options = {}) {
-  options.range_noise = 0.0;
-  const Scene scene = parse_scene(
-      "hulls: [{name: hall, min: [-6, -4, 0], max: [6, 4, 3]}]\n"
-      "materials: {looking_glass: {mirror: 1.0}, sign: {reflectivity: 1.0}}\n"
-      "route: {waypoints: [[-1, 0], [1, 0]]}\n" +
-          more,
-      "hall.yaml");
-  const RayCaster rays(scene);
-  const Motion motion(scene.route, {}, 1, 10.0);
-  return Lidar(find_sensor("mid360"), options, {scene, rays, motion}, 1).scan(60);
-}
-
-double range_of(const lio::TimedPoint& point) {
-  return Eigen::Vector3d(point.x, point.y, point.z).norm();
-}
-
-TEST(Lidar, SeesTheRoomBehindAMirrorAsTheSensorWould) {
-  const std::string mirror =
-      "boxes: [{min: [-2, 3.9, 0], max: [2, 4, 2.5], material: looking_glass}]\n";
-  const SimulatedScan with = scan_hall(mirror);
-  const SimulatedScan without = scan_hall("");
-  ASSERT_EQ(with.scan.points.size(), without.scan.points.size());
-  std::size_t mirrored = 0;
-  for (std::size_t i = 0; i < with.truth.size(); ++i) {
-    if (with.truth[i].origin == Origin::kMirror) {
-      ++mirrored;
-      EXPECT_GT(range_of(with.scan.points[i]), range_of(without.scan.points[i]));
-    } else {
-      EXPECT_NEAR(range_of(with.scan.points[i]), range_of(without.scan.points[i]), 0.11);
-    }
-  }
-  EXPECT_GT(mirrored, 300U);
-}
-
-/// The picture of a plane in a plane mirror is a plane: light that goes 3.9 m to the mirror and 8 m
-/// less its thickness back seems to come from a wall behind it.
-TEST(Lidar, ThePictureOfAWallInAMirrorIsAPlaneBehindIt) {
-  const std::string mirror =
-      "boxes: [{min: [-6, 3.9, 0], max: [6, 4, 3], material: looking_glass}]\n";
-  const Scene scene = parse_scene(
-      "hulls: [{name: hall, min: [-6, -4, 0], max: [6, 4, 3]}]\n"
-      "materials: {looking_glass: {mirror: 1.0}}\n"
-      "route: {waypoints: [[-1, 0], [1, 0]]}\n" +
-          mirror,
-      "hall.yaml");
-  const RayCaster rays(scene);
-  const Motion motion(scene.route, {}, 1, 10.0);
-  LidarOptions options;
-  options.range_noise = 0.0;
-  const Lidar lidar(find_sensor("mid360"), options, {scene, rays, motion}, 1);
-  const SimulatedScan scan = lidar.scan(60);
-  std::size_t pictures = 0;
-  for (std::size_t i = 0; i < scan.truth.size(); ++i) {
-    const lio::TimedPoint& point = scan.scan.points[i];
-    if (scan.truth[i].origin != Origin::kMirror ||
-        object_name(scene, scan.truth[i].surface.object) != "hall_south") {
-      continue;
-    }
-    ++pictures;
-    const Pose T_world_lidar =
-        motion.pose(scan.scan.t_begin + static_cast<double>(point.dt)) * lidar.extrinsic();
-    const Eigen::Vector3d p = T_world_lidar * Eigen::Vector3d(point.x, point.y, point.z);
-    EXPECT_NEAR(p.y(), 3.9 + 3.9 + 4.0, 1e-5);
-  }
-  EXPECT_GT(pictures, 100U);
-}
-
-TEST(Lidar, PeopleStandInTheWayOfWhatIsBehindThem) {
-  const SimulatedScan with = scan_hall("people: [{path: [[3, 0], [3, 0.001]], radius: 0.3}]\n");
-  const SimulatedScan without = scan_hall("");
-  ASSERT_EQ(with.scan.points.size(), without.scan.points.size());
-  std::size_t on_people = 0;
-  for (std::size_t i = 0; i < with.truth.size(); ++i) {
-    const bool is_person = with.truth[i].origin == Origin::kPerson;
-    on_people += is_person ? 1 : 0;
-    if (is_person) {
-      EXPECT_LT(range_of(with.scan.points[i]), range_of(without.scan.points[i]));
-    } else {
-      EXPECT_EQ(range_of(with.scan.points[i]), range_of(without.scan.points[i]));
-    }
-  }
-  EXPECT_GT(on_people, 100U);
-}
-
-TEST(People, WalkToAndFro) {
-  Person person;
-  person.path = {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}};
-  person.speed = 0.5;
-  EXPECT_LT((place_of(person, 0.0) - Eigen::Vector3d(0, 0, 0)).norm(), 1e-12);
-  EXPECT_LT((place_of(person, 2.0) - Eigen::Vector3d(1, 0, 0)).norm(), 1e-12);
-  EXPECT_LT((place_of(person, 5.0) - Eigen::Vector3d(2, 0.5, 0)).norm(), 1e-12);
-  EXPECT_LT((place_of(person, 6.0) - Eigen::Vector3d(2, 1, 0)).norm(), 1e-12);
-  EXPECT_LT((place_of(person, 7.0) - Eigen::Vector3d(2, 0.5, 0)).norm(), 1e-12);
-  EXPECT_LT((place_of(person, 11.0) - Eigen::Vector3d(0.5, 0, 0)).norm(), 1e-12);
-  EXPECT_LT((place_of(person, 13.0) - Eigen::Vector3d(0.5, 0, 0)).norm(), 1e-12);
-}
-
-TEST(Lidar, BrightSurfacesBloomBeyondTheirEdges) {
-  const std::string sign = "boxes: [{min: [2.9, -0.3, 1], max: [3, 0.3, 2], material: sign}]\n";
-  LidarOptions options;
-  options.blooming = 1.0;
-  const SimulatedScan with = scan_hall(sign, options);
-  const SimulatedScan without = scan_hall(sign);
-  ASSERT_EQ(with.scan.points.size(), without.scan.points.size());
-  std::size_t around = 0;
-  for (std::size_t i = 0; i < with.truth.size(); ++i) {
-    if (with.truth[i].origin != Origin::kBlooming) {
-      EXPECT_EQ(range_of(with.scan.points[i]), range_of(without.scan.points[i]));
-    } else if (range_of(without.scan.points[i]) - range_of(with.scan.points[i]) > 1.0) {
-      ++around;  // the wall behind, at the range of the sign
-    }
-  }
-  EXPECT_GT(around, 5U);
-  EXPECT_LT(around, 300U);
 }
 
 }  // namespace

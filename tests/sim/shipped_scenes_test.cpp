@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <set>
 
 #include "sim/clearance.hpp"
@@ -12,6 +13,18 @@
 
 namespace nvm::sim {
 namespace {
+
+/// Horizontal distance from `p` to where that path goes [m].
+double distance_to_path(const Eigen::Vector3d& p, const std::vector<Eigen::Vector3d>& path) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const Eigen::Vector2d leg = (path[i] - path[i - 1]).head<2>();
+    const Eigen::Vector2d from_start = (p - path[i - 1]).head<2>();
+    const double share = std::clamp(from_start.dot(leg) / leg.squaredNorm(), 0.0, 1.0);
+    least = std::min(least, (from_start - share * leg).norm());
+  }
+  return least;
+}
 
 TEST(ShippedScenes, AreTheDocumentedOnes) {
   const auto names = shipped_scenes();
@@ -48,6 +61,35 @@ TEST_P(ShippedScene, CanBeWalkedWithManySeeds) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const Motion motion(scene_.route, {}, seed, 0.0);
     EXPECT_NO_THROW(check_clearance(scene_, rays_, motion, 0.25)) << "seed " << seed;
+  }
+}
+
+TEST(ShippedScenes, KeepPeopleBesideTheRoute) {
+  constexpr double kElbowRoom = 0.05;  // [m]
+  const Scene scene = load_scene("flat_busy");
+  ASSERT_FALSE(scene.people.empty());
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const Motion motion(scene.route, {}, seed, 0.0);
+    for (double time = 0.0; time < motion.duration(); time += 0.2) {
+      const Eigen::Vector3d p = motion.pose(time).translation();
+      for (const Person& person : scene.people) {
+        EXPECT_GT(distance_to_path(p, person.path) - person.radius, kElbowRoom) << p.transpose();
+      }
+    }
+  }
+}
+
+/// By a robot, and over the head, as far as its doors of 2 m let one.
+TEST(ShippedScenes, FlatsCanBeWalkedLowAndHigh) {
+  for (const std::string name : {"flat", "flat_blank", "flat_busy"}) {
+    const Scene scene = load_scene(name);
+    const RayCaster rays(scene);
+    for (const double height : {0.3, 1.8}) {
+      MotionOptions options;
+      options.height = height;
+      const Motion motion(scene.route, options, 1, 0.0);
+      EXPECT_NO_THROW(check_clearance(scene, rays, motion, 0.1)) << name << " " << height;
+    }
   }
 }
 
