@@ -7,6 +7,7 @@
 
 #include "lio/aligned_matcher.hpp"
 #include "lio/plane_projection.hpp"
+#include "lio/pose_covariance.hpp"
 #include "lio/stage_timer.hpp"
 #include "nvm/core/require.hpp"
 
@@ -73,6 +74,7 @@ FrameResult InertialPipeline::process(const Scan& scan) {
   insert(result);
   result.T_map_body = filter_->state().T_world_body;
   result.T_map_lidar = filter_->state().T_world_lidar();
+  describe_motion(*filter_, samples_.empty() ? nullptr : &samples_.back(), result);
   return result;
 }
 

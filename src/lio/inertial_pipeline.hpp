@@ -58,6 +58,8 @@ class InertialPipeline final : public Pipeline {
   void add_imu(const ImuSample& sample) override { imu_.add(sample); }
   FrameResult process(const Scan& scan) override;
   const LioMap& map() const override { return *map_; }
+  const DeskewedScan& scan() const override { return prepared_.scan; }
+  const std::vector<Eigen::Vector3f>& normals() const override { return prepared_.normals; }
 
   /// The filter, once initialised.
   const std::optional<ErrorStateFilter>& filter() const { return filter_; }

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "lio/pose_covariance.hpp"
 #include "lio/stage_timer.hpp"
 #include "nvm/core/require.hpp"
 
@@ -80,7 +81,8 @@ const LidarOdometry::Normals& LidarOdometry::prepare(const Scan& scan, FrameResu
   }
   const StageTimer timer(result.times.normals);
   result.points = scan_.size();
-  return normal_estimator_.estimate(scan_.points, scan_.viewpoints, executor_).normals;
+  normals_ = &normal_estimator_.estimate(scan_.points, scan_.viewpoints, executor_).normals;
+  return *normals_;
 }
 
 void LidarOdometry::match(const Normals& normals, FrameResult& result) {
@@ -106,6 +108,7 @@ void LidarOdometry::match(const Normals& normals, FrameResult& result) {
   if (is_believable(aligned)) {
     result.status = FrameStatus::kTracking;
     result.T_map_lidar = aligned.T_map_scan;
+    result.pose_covariance = covariance_of(aligned, options_.T_body_lidar);
     return;
   }
   const bool lost = result.time - motion_->last().time > options_.max_weak_duration;
@@ -177,6 +180,7 @@ bool LidarOdometry::convinces(const AlignResult& result, const Pose& start) cons
 void LidarOdometry::insert(const Normals& normals, FrameResult& result) {
   const Pose T_map_body = result.T_map_lidar * options_.T_body_lidar.inverse();
   result.T_map_body = T_map_body;
+  describe_prediction(predicted_, motion_ ? result.time - motion_->last().time : 0.0, result);
   if (result.status != FrameStatus::kTracking) {
     return;
   }
@@ -187,6 +191,8 @@ void LidarOdometry::insert(const Normals& normals, FrameResult& result) {
   } else {
     motion_.emplace(pose);
   }
+  result.velocity = motion_->velocity();
+  result.angular_rate = motion_->rate();
   result.inserted = map_->insert(scan_.points, normals, result.T_map_lidar);
   search_.insert(scan_.points, normals, result.T_map_lidar);
 }

@@ -32,6 +32,8 @@ class LidarOdometry final : public Pipeline {
   void add_imu(const ImuSample& /*sample*/) override {}
   FrameResult process(const Scan& scan) override;
   const LioMap& map() const override { return *map_; }
+  const DeskewedScan& scan() const override { return scan_; }
+  const std::vector<Eigen::Vector3f>& normals() const override { return *normals_; }
 
  private:
   using Normals = std::vector<Eigen::Vector3f>;
@@ -60,6 +62,8 @@ class LidarOdometry final : public Pipeline {
   std::vector<MotionSegment> segments_;
   DeskewedScan scan_;
   std::vector<Eigen::Vector3f> key_points_, key_normals_;
+  Normals no_normals_;
+  const Normals* normals_ = &no_normals_;  // of scan_
 };
 
 }  // namespace nvm::lio

@@ -2,9 +2,12 @@
 // Copyright (c) 2026 The nvm authors
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <string>
+#include <vector>
 
+#include "lio/deskew.hpp"
 #include "lio/lio_map.hpp"
 #include "lio/sensor_data.hpp"
 #include "nvm/geometry/pose.hpp"
@@ -34,13 +37,21 @@ struct StageTimes {
   double total() const { return measurement() + normals; }
 };
 
+using Covariance6 = Eigen::Matrix<double, 6, 6, Eigen::DontAlign>;
+
 /// What a pipeline says about one scan.
 struct FrameResult {
   FrameStatus status = FrameStatus::kInitializing;
   double time = 0.0;  ///< of the pose: the scan's end [s]
   Pose T_map_body = Pose::Identity();
   Pose T_map_lidar = Pose::Identity();
-  std::size_t points = 0;  ///< returns used
+  /// Of the body's position [m^2] and of a rotation about the map's axes [rad^2]; zero without a
+  /// pose, and for one that is so by definition.
+  Covariance6 pose_covariance = Covariance6::Zero();
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();      ///< of the body [m/s], map frame
+  Eigen::Vector3d angular_rate = Eigen::Vector3d::Zero();  ///< of the body [rad/s], body frame
+  Covariance6 twist_covariance = Covariance6::Zero();      ///< of velocity and angular_rate
+  std::size_t points = 0;                                  ///< returns used
   std::size_t keypoints = 0;
   std::size_t residuals = 0;      ///< keypoints that found their surface in the map
   double residual_rms = 0.0;      ///< [m]
@@ -64,6 +75,11 @@ class Pipeline {
   virtual FrameResult process(const Scan& scan) = 0;
 
   virtual const LioMap& map() const = 0;
+
+  /// The scan that process() took last, and its normals: unit vectors in the scan frame, zero where
+  /// there is no plane. Only of use when that gave a pose.
+  virtual const DeskewedScan& scan() const = 0;
+  virtual const std::vector<Eigen::Vector3f>& normals() const = 0;
 };
 
 }  // namespace nvm::lio
