@@ -8,10 +8,10 @@
 #include <string>
 
 #include "app/doing.hpp"
-#include "app/map_files.hpp"
 #include "app/map_origin.hpp"
 #include "app/say.hpp"
 #include "io/map_cloud.hpp"
+#include "io/map_files.hpp"
 #include "io/pending_path.hpp"
 #include "nvm/map/serialization.hpp"
 
@@ -31,7 +31,8 @@ void write_cloud(const ExportArguments& arguments) {
   }
   const Eigen::Vector3d origin = read_origin(arguments.map);
   doing("exporting " + arguments.map, [&] {
-    io::write_map_cloud(arguments.cloud, map_cloud_of(load_map(arguments.map).points(), origin));
+    io::write_map_cloud(
+        arguments.cloud, io::map_cloud_of(load_map(arguments.map).points(), origin));
   });
 }
 

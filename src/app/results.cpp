@@ -11,11 +11,11 @@
 
 #include "app/doing.hpp"
 #include "app/failure.hpp"
-#include "app/map_files.hpp"
 #include "app/map_origin.hpp"
 #include "app/progress_bar.hpp"
 #include "app/say.hpp"
 #include "io/file.hpp"
+#include "io/map_files.hpp"
 
 namespace nvm::app {
 
@@ -95,7 +95,7 @@ void publish(
   const std::string& folder = results.path();
   attempt({folder + "/map.ply", folder + "/map.nvm"}, ending, [&] {
     doing("writing the map", [&] {
-      write_map_files(map, origin, folder);
+      io::write_map_files(map, origin, folder);
       write_origin(folder, origin);
     });
   });

@@ -21,8 +21,6 @@ namespace nvm::app {
 struct RunOptions {
   lio::PipelineOptions pipeline;
   io::SequenceOptions input;
-  /// x y z [m] qx qy qz qw; empty: what the sequence tells.
-  std::vector<double> T_imu_lidar;
 };
 
 /// The command line's part of it, shared by the subcommands that read scans.

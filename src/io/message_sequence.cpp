@@ -17,42 +17,10 @@
 #include "io/message_topics.hpp"
 #include "io/ros_messages.hpp"
 #include "io/scan_converter.hpp"
+#include "io/sequence_options.hpp"
 
 namespace nvm::io {
 namespace {
-
-constexpr double kStandardGravity = 9.80665;
-/// The factor that makes m/s^2 of accelerations of such lengths.
-double accel_scale(std::vector<double> norms, AccelUnit unit) {
-  constexpr double kLimit = 3.0;  // between 1 g and 9.8 m/s^2 on a logarithmic scale
-  if (unit == AccelUnit::kAutomatic && !norms.empty()) {
-    std::sort(norms.begin(), norms.end());
-    unit = norms[norms.size() / 2] < kLimit ? AccelUnit::kStandardGravity
-                                            : AccelUnit::kMetrePerSquareSecond;
-  }
-  return unit == AccelUnit::kStandardGravity ? kStandardGravity : 1.0;
-}
-
-PointTimeOptions point_time_options(const SequenceOptions& options) {
-  PointTimeOptions times;
-  times.field = options.point_time_field;
-  times.unit = options.point_time_unit;
-  times.stamp = options.stamp;
-  times.is_raw = true;
-  return times;
-}
-
-const std::string& bytes_of(const RecordedMessage& message) {
-  if (!message.problem.empty()) {
-    throw std::runtime_error(message.problem);
-  }
-  return message.bytes;
-}
-
-CloudMessage read_cloud(const RecordedMessage& message) {
-  const std::string& bytes = bytes_of(message);
-  return is_livox(message.type) ? read_livox_custom(bytes) : read_point_cloud2(bytes);
-}
 
 class MessageSequence : public SequenceReader {
  public:
@@ -173,7 +141,7 @@ class MessageSequence : public SequenceReader {
   }
 
   void learn(std::vector<CloudMessage> clouds, const SequenceOptions& options) {
-    PointTimeOptions times = point_time_options(options);
+    PointTimeOptions times = message_time_options(options);
     if (clocks_.cloud.uses_record() && times.stamp == StampMeaning::kAutomatic) {
       times.stamp = StampMeaning::kEnd;  // a message is recorded when it is complete
     }

@@ -70,9 +70,13 @@ class RosBagSource : public MessageSource {
 
 }  // namespace
 
+std::unique_ptr<MessageSource> ros_bag_messages(const std::vector<std::string>& paths) {
+  return std::make_unique<RosBagSource>(paths);
+}
+
 std::unique_ptr<SequenceReader> open_ros_bags(
     const std::vector<std::string>& paths, const SequenceOptions& options) {
-  return read_messages(paths.front(), std::make_unique<RosBagSource>(paths), options);
+  return read_messages(paths.front(), ros_bag_messages(paths), options);
 }
 
 }  // namespace nvm::io

@@ -6,9 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "io/message_source.hpp"
 #include "io/sequence_reader.hpp"
 
 namespace nvm::io {
+
+/// The messages of the ROS 1 bags of one recording, in any order. Throws std::runtime_error, naming
+/// the file, when it is no bag.
+std::unique_ptr<MessageSource> ros_bag_messages(const std::vector<std::string>& paths);
 
 /// Opens the ROS 1 bags of one recording, in any order: clouds (sensor_msgs/PointCloud2, or
 /// CustomMsg of livox_ros_driver and livox_ros_driver2) of one topic and sensor_msgs/Imu of

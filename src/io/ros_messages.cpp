@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "io/byte_cursor.hpp"
+#include "io/message_topics.hpp"
 
 namespace nvm::io {
 namespace {
@@ -142,6 +143,18 @@ lio::ImuSample read_imu(std::string_view bytes) {
   sample.accel = vector(cursor);
   cursor.block(kCovariance);
   return sample;
+}
+
+const std::string& bytes_of(const RecordedMessage& message) {
+  if (!message.problem.empty()) {
+    throw std::runtime_error(message.problem);
+  }
+  return message.bytes;
+}
+
+CloudMessage read_cloud(const RecordedMessage& message) {
+  const std::string& bytes = bytes_of(message);
+  return is_livox(message.type) ? read_livox_custom(bytes) : read_point_cloud2(bytes);
 }
 
 }  // namespace nvm::io

@@ -2,8 +2,10 @@
 // Copyright (c) 2026 The nvm authors
 #pragma once
 
+#include <string>
 #include <string_view>
 
+#include "io/message_source.hpp"
 #include "io/point_records.hpp"
 #include "io/scan_converter.hpp"
 #include "lio/sensor_data.hpp"
@@ -22,6 +24,12 @@ CloudMessage read_livox_custom(std::string_view bytes);
 
 /// sensor_msgs/Imu; the acceleration as it stands in the message.
 lio::ImuSample read_imu(std::string_view bytes);
+
+/// The bytes of a message. Throws std::runtime_error when they could not be read.
+const std::string& bytes_of(const RecordedMessage& message);
+
+/// A message of a type for which is_cloud() holds.
+CloudMessage read_cloud(const RecordedMessage& message);
 
 /// Fields of the points of a CustomMsg, without points.
 PointRecords livox_records();

@@ -37,6 +37,8 @@ struct SequenceOptions {
   /// Numbers a point in .bin files, 3 to 6; 0: as they look
   std::size_t bin_fields = 0;
   double scan_rate = 10.0;  ///< [Hz], 0.01 to 1000; of scan files without any time
+  /// Extrinsic: x y z [m] qx qy qz qw; empty: what the sequence tells.
+  std::vector<double> T_imu_lidar;
 };
 
 /// What is known of a sequence before its first scan is read.

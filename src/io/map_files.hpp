@@ -9,14 +9,14 @@
 #include "lio/lio_map.hpp"
 #include "nvm/map/map_point.hpp"
 
-namespace nvm::app {
+namespace nvm::io {
 
 /// The points of a map whose origin is at `origin` [m], as the writers of nvm::io take them.
-io::MapCloud map_cloud_of(const std::vector<MapPoint>& points, const Eigen::Vector3d& origin);
+MapCloud map_cloud_of(const std::vector<MapPoint>& points, const Eigen::Vector3d& origin);
 
 /// Writes map.ply and, for a voxel map, map.nvm to `folder`; map.nvm counts from `origin` [m].
 /// Throws std::runtime_error.
 void write_map_files(
     const lio::LioMap& map, const Eigen::Vector3d& origin, const std::string& folder);
 
-}  // namespace nvm::app
+}  // namespace nvm::io

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#include "app/map_files.hpp"
+#include "io/map_files.hpp"
 
 #include <cstdint>
 
 #include "nvm/map/serialization.hpp"
 
-namespace nvm::app {
+namespace nvm::io {
 
-io::MapCloud map_cloud_of(const std::vector<MapPoint>& points, const Eigen::Vector3d& origin) {
-  io::MapCloud cloud;
+MapCloud map_cloud_of(const std::vector<MapPoint>& points, const Eigen::Vector3d& origin) {
+  MapCloud cloud;
   for (const MapPoint& point : points) {
     cloud.positions.push_back(point.position + origin);
     cloud.normals.push_back(point.normal);
@@ -20,10 +20,10 @@ io::MapCloud map_cloud_of(const std::vector<MapPoint>& points, const Eigen::Vect
 
 void write_map_files(
     const lio::LioMap& map, const Eigen::Vector3d& origin, const std::string& folder) {
-  io::write_map_cloud(folder + "/map.ply", map_cloud_of(map.points(), origin));
+  write_map_cloud(folder + "/map.ply", map_cloud_of(map.points(), origin));
   if (map.voxel_map() != nullptr) {
     save_map(*map.voxel_map(), folder + "/map.nvm");
   }
 }
 
-}  // namespace nvm::app
+}  // namespace nvm::io
