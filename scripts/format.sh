@@ -4,5 +4,5 @@ set -euo pipefail
 source "$(dirname "$0")/environment.sh"
 options=(-i)
 [[ ${1:-} == --check ]] && options=(--dry-run --Werror)
-find adapters benchmarks examples include python src tests \( -name '*.hpp' -o -name '*.cpp' \) -print0 |
+find adapters benchmarks examples include python ros src tests \( -name '*.hpp' -o -name '*.cpp' \) -print0 |
   xargs -0 clang-format "${options[@]}"

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # Installs what nvm needs on Debian 12 (Ubuntu alike); takes no time when everything is there.
-#   scripts/setup.sh [--developer] [--pcl]
+#   scripts/setup.sh [--developer] [--pcl] [--ros]
 #     --developer  also what formats, lints, documents, measures coverage and runs tests for ARM
 #     --pcl        also PCL, for the adapter and its comparison (large), and ROS, for the hosts' setting
+#     --ros        also ROS 1, for the node and its tests
 set -euo pipefail
 source "$(dirname "$0")/environment.sh"
 
@@ -24,7 +25,14 @@ for option in "$@"; do
   case $option in
     --developer) packages+=(clang clang-format clang-tidy doxygen gcovr dpkg-dev g++-aarch64-linux-gnu qemu-user) ;;
     --pcl) packages+=(libpcl-dev libroscpp-dev libpcl-conversions-dev) ;;
-    *) sed -n '2,5s/^# //p' "$0" && exit 2 ;;
+    --ros)
+      packages+=(
+        libroscpp-dev libtopic-tools-dev libtf2-ros-dev libdiagnostic-msgs-dev libnav-msgs-dev libstd-srvs-dev
+        rosout python3-rosbag python3-roslaunch python3-rostopic python3-rosservice python3-tf2-ros
+        python3-diagnostic-msgs python3-nav-msgs python3-std-srvs
+      )
+      ;;
+    *) sed -n '2,6s/^# //p' "$0" && exit 2 ;;
   esac
 done
 

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include <fmt/format.h>
+#include <ros/console.h>
+
+#include <cmath>
+#include <exception>
+#include <utility>
+
+#include "io/ros_messages.hpp"
+#include "node.hpp"
+
+namespace nvm_ros {
+
+void Node::work() {
+  constexpr std::size_t kEnough = 5;
+  while (std::optional<RawCloud> cloud = queue_->next_cloud()) {
+    if (has_learnt_) {
+      try_to_process(*cloud);
+      continue;
+    }
+    first_.push_back(std::move(*cloud));
+    if (first_.size() >= kEnough) {
+      learn();
+    }
+  }
+  learn();
+}
+
+// How points and scans are dated is judged over the first clouds, as any one may be bad.
+void Node::learn() {
+  std::vector<nvm::io::CloudMessage> clouds;
+  for (const RawCloud& raw : first_) {
+    try {
+      nvm::io::CloudMessage cloud = nvm::io::read_cloud(raw.message);
+      cloud.record_time = raw.record_time;
+      clouds.push_back(std::move(cloud));
+    } catch (const std::exception&) {
+      continue;  // try_to_process() tells it
+    }
+  }
+  if (!clouds.empty()) {
+    converter_.learn(clouds);
+    has_learnt_ = true;
+  }
+  for (const RawCloud& raw : first_) {
+    try_to_process(raw);
+  }
+  first_.clear();
+}
+
+void Node::try_to_process(const RawCloud& cloud) {
+  try {
+    process(cloud);
+  } catch (const std::exception& error) {
+    if (bad_scan_throttle_.passes()) {
+      ROS_ERROR("a scan is left out: %s", error.what());
+    }
+    const std::lock_guard lock(mutex_);
+    statistics_.add_bad(error.what());
+  }
+}
+
+void Node::process(const RawCloud& cloud) {
+  if (cloud.epoch != epoch_) {
+    epoch_ = cloud.epoch;
+    const std::lock_guard lock(mutex_);
+    begin_anew(fmt::format("time has gone back to {:.3f} s", cloud.stamp));
+  }
+  const nvm::lio::Scan scan =
+      converter_.convert(nvm::io::read_cloud(cloud.message).records, cloud.stamp);
+  const auto readings = queue_->imu_until(cloud, scan.t_end);
+  if (!readings) {
+    return;
+  }
+  std::unique_lock lock(mutex_);
+  find_frames_once(cloud.frame, lock);
+  if (!odometry_) {
+    nvm::lio::FrameResult waiting;
+    waiting.time = scan.t_end;
+    waiting.message = "no message on " + topics_.imu + " yet";
+    tell(waiting, cloud);
+    return;
+  }
+  look_at_clocks(scan, !readings->empty());
+  const nvm::lio::FrameResult frame = odometry_->process(*readings, scan);
+  outputs_.publish(frame, odometry_->pipeline(), *frames_);
+  tell(frame, cloud);
+}
+
+// Leaves the mutex to others while it waits for TF.
+void Node::find_frames_once(const std::string& lidar_frame, std::unique_lock<std::mutex>& lock) {
+  if (odometry_) {
+    return;
+  }
+  std::optional<std::string> imu_frame;
+  if (!topics_.imu.empty()) {
+    const std::lock_guard received_lock(received_mutex_);
+    imu_frame = imu_frame_;
+    if (!imu_frame) {
+      return;
+    }
+  }
+  lock.unlock();
+  Frames frames = find_frames(tf_, lidar_frame, imu_frame, options_);
+  lock.lock();
+  statistics_.clear_warnings();
+  for (const std::string& note : frames.notes) {
+    ROS_WARN("%s", note.c_str());
+    statistics_.note(note, true);
+  }
+  nvm::lio::PipelineOptions pipeline = options_.pipeline;
+  pipeline.inertial.T_imu_lidar = frames.T_body_lidar;
+  odometry_ = std::make_unique<Odometry>(pipeline, options_.input.accel_unit);
+  frames_ = std::move(frames);
+}
+
+void Node::begin_anew(const std::string& reason) {
+  ROS_WARN("%s: odometry and map begin anew", reason.c_str());
+  odometry_.reset();
+  outputs_.reset();
+  told_.reset();
+  statistics_.count_reset();
+}
+
+void Node::tell(const nvm::lio::FrameResult& frame, const RawCloud& cloud) {
+  statistics_.add(frame, cloud.arrival);
+  poses_ += has_pose(frame) ? 1 : 0;
+  if (told_ == frame.status) {
+    return;
+  }
+  told_ = frame.status;
+  const char* const status = nvm::lio::name(frame.status);
+  if (frame.status == nvm::lio::FrameStatus::kTracking) {
+    ROS_INFO("%s: pose of %s in %s", status, frames_->base.c_str(), options_.odom_frame.c_str());
+  } else {
+    ROS_WARN("%s at %.3f s: %s", status, frame.time, frame.message.c_str());
+  }
+}
+
+void Node::look_at_clocks(const nvm::lio::Scan& scan, bool has_readings) {
+  constexpr double kFar = 1.0;  // [s]
+  const double newest = queue_->stats().newest_imu;
+  const double ahead = newest - scan.t_end;
+  clock_finding_.clear();
+  if (!has_readings && std::isfinite(newest) && std::abs(ahead) > kFar) {
+    clock_finding_ = fmt::format(
+        "stamps of {} are {:.3f} s {} those of {}: the sensors' clocks must agree (PTP, or a "
+        "driver "
+        "that stamps with the host's time)",
+        topics_.imu,
+        std::abs(ahead),
+        ahead > 0.0 ? "ahead of" : "behind",
+        topics_.lidar);
+  }
+}
+
+}  // namespace nvm_ros
