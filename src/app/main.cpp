@@ -18,6 +18,7 @@
 #include "app/run_command.hpp"
 #include "app/say.hpp"
 #include "app/simulate_command.hpp"
+#include "app/walls_command.hpp"
 #include "config/nearest_name.hpp"
 #include "nvm/version.hpp"
 
@@ -72,6 +73,7 @@ int run(int argc, char** argv) {
   nvm::app::add_export_command(app);
   nvm::app::add_simulate_command(app);
   nvm::app::add_evaluate_command(app);
+  nvm::app::add_walls_command(app);
   return parse(app, argc, argv);
 }
 

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include "app/walls_command.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "app/doing.hpp"
+#include "app/map_files.hpp"
+#include "app/map_origin.hpp"
+#include "app/say.hpp"
+#include "io/file.hpp"
+#include "io/map_cloud.hpp"
+#include "nvm/map/serialization.hpp"
+#include "survey/survey.hpp"
+#include "survey/survey_files.hpp"
+#include "survey/survey_table.hpp"
+
+namespace nvm::app {
+
+namespace {
+
+struct WallsArguments {
+  std::string map;
+  std::string folder;
+  survey::SurveyOptions options;
+};
+
+io::MapCloud read_map(const std::string& path) {
+  const std::string extension = io::extension_of(path);
+  if (extension == ".ply" || extension == ".pcd") {
+    return io::read_map_cloud(path);
+  }
+  return map_cloud_of(load_map(path).points(), read_origin(path));
+}
+
+void print_summary(const survey::Survey& found, const std::string& folder) {
+  fmt::print("{}", survey::screen_table(found));
+  fmt::print(
+      "{} seen from both sides, {} columns and furniture, {} faces seen from one side\n",
+      found.walls.size(),
+      found.bodies.size(),
+      found.faces.size());
+  fmt::print("{0}/walls.html, {0}/walls.json, {0}/plan.dxf\n", folder);
+}
+
+void list_walls(const WallsArguments& arguments) {
+  const io::MapCloud cloud =
+      doing("loading " + arguments.map, [&] { return read_map(arguments.map); });
+  const survey::Survey found = doing("looking for walls", [&] {
+    try {
+      return survey::survey_walls(cloud, arguments.options);
+    } catch (const std::invalid_argument& error) {
+      throw std::runtime_error(arguments.map + ": " + error.what());
+    }
+  });
+  if (found.left_out > 0) {
+    say(fmt::format(
+        "note: {} of {} points were left out: without a position, without a normal, or far from "
+        "all others",
+        found.left_out,
+        cloud.positions.size()));
+  }
+  if (found.walls.empty() && found.bodies.empty() && found.faces.empty()) {
+    throw std::runtime_error(fmt::format(
+        "{}: no plane of {} m² among {} points; a map of more scans, or --min-area, may have some",
+        arguments.map,
+        arguments.options.min_area,
+        cloud.positions.size()));
+  }
+  doing("writing " + arguments.folder, [&] {
+    survey::write_survey(found, arguments.options.plan_height, arguments.folder);
+  });
+  print_summary(found, arguments.folder);
+}
+
+}  // namespace
+
+void add_walls_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "walls", "List the walls, slabs and doors of a map, measured, and draw a floor plan");
+  const auto arguments = std::make_shared<WallsArguments>();
+  survey::SurveyOptions& options = arguments->options;
+  command->add_option("MAP", arguments->map, "A map.nvm file, or a PLY or PCD with normals")
+      ->required();
+  command->add_option("--out", arguments->folder, "Folder of the results")->required();
+  command->add_option("--height", options.plan_height, "Of the plan above the floor [m]")
+      ->capture_default_str();
+  command->add_option("--min-area", options.min_area, "That both sides show [m²]")
+      ->capture_default_str();
+  command->add_option("--max-thickness", options.max_thickness, "Of a wall [m]")
+      ->capture_default_str();
+  command->add_option("--max-gap", options.max_gap, "That a face goes on behind [m]")
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--drift", options.drift, "Standard deviation of the pose between two sides' passes [m]")
+      ->capture_default_str();
+  command->callback([arguments] { list_walls(*arguments); });
+}
+
+}  // namespace nvm::app

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include "survey/edge_snapper.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace nvm::survey {
+
+namespace {
+
+constexpr double kReach = 0.3;  // [m]; from an edge over cells to where it may belong
+
+double length(const PlanePoint& a, const PlanePoint& b) { return std::hypot(b.u - a.u, b.v - a.v); }
+
+/// True when face `other` shows something within kReach of `p`.
+bool is_near(const Face& other, const Eigen::Vector3d& p) {
+  const double u = other.frame.coordinate_u(p);
+  const double v = other.frame.coordinate_v(p);
+  return std::abs(other.plane.distance(p)) < kReach && u > other.box.min_u - kReach &&
+         u < other.box.max_u + kReach && v > other.box.min_v - kReach &&
+         v < other.box.max_v + kReach;
+}
+
+}  // namespace
+
+double EdgeSnapper::end_of_points(const Face& face, const Line& line, const Edge& edge) const {
+  constexpr double kShare = 0.95;  // of the points near the edge that lie within it
+  constexpr std::size_t kMinPoints = 5;
+  const double reach = length(edge.from, edge.to);
+  const double along_u = (edge.to.u - edge.from.u) / reach;
+  const double along_v = (edge.to.v - edge.from.v) / reach;
+  std::vector<double> offsets;
+  for (const std::uint32_t i : face.points) {
+    const Eigen::Vector3d& p = cloud_.positions[i];
+    const double u = face.frame.coordinate_u(p);
+    const double v = face.frame.coordinate_v(p);
+    const double offset = line.a * u + line.b * v - line.c;
+    const double along = along_u * (u - edge.from.u) + along_v * (v - edge.from.v);
+    if (std::abs(offset) < 1.5 * face.seen.cell() && along > 0.0 && along < reach) {
+      offsets.push_back(offset);
+    }
+  }
+  if (offsets.size() < kMinPoints) {
+    return line.c;
+  }
+  std::sort(offsets.begin(), offsets.end());
+  const double share = edge.is_of_hole ? 1.0 - kShare : kShare;
+  return line.c +
+         offsets[static_cast<std::size_t>(share * static_cast<double>(offsets.size() - 1))];
+}
+
+EdgeSnapper::Line EdgeSnapper::edge_line(std::size_t index, const Edge& loop_edge) const {
+  constexpr double kMaxCosine = 0.87;  // of two planes that cut: 30 degrees
+  constexpr double kMaxSlope = 0.18;   // of an edge against the cut: 10 degrees
+  const Face& face = faces_[index];
+  const auto& [from, to, is_of_hole] = loop_edge;
+  const double edge_length = std::max(length(from, to), 1e-9);
+  Line edge{(to.v - from.v) / edge_length, (from.u - to.u) / edge_length, 0.0};
+  edge.c = edge.a * from.u + edge.b * from.v;
+  Line best = edge;
+  double best_distance = kReach;
+  const double middle_u = 0.5 * (from.u + to.u);
+  const double middle_v = 0.5 * (from.v + to.v);
+  for (const Face& other : faces_) {
+    const double cosine = other.plane.normal.dot(face.plane.normal);
+    if (std::abs(cosine) > kMaxCosine || !is_near(other, face.frame.point(middle_u, middle_v))) {
+      continue;
+    }
+    Line cut{
+        other.plane.normal.dot(face.frame.u),
+        other.plane.normal.dot(face.frame.v),
+        -other.plane.distance(face.frame.origin)};
+    const double scale =
+        (cut.a * edge.a + cut.b * edge.b < 0.0 ? -1.0 : 1.0) / std::hypot(cut.a, cut.b);
+    cut = {scale * cut.a, scale * cut.b, scale * cut.c};
+    const double slope = std::abs(cut.a * edge.b - cut.b * edge.a);
+    const double distance = std::abs(cut.a * middle_u + cut.b * middle_v - cut.c);
+    if (distance < best_distance && slope * std::min(edge_length, 1.0) < kMaxSlope) {
+      best_distance = distance;
+      best = cut;
+    }
+  }
+  if (best_distance == kReach && length(from, to) > face.seen.cell()) {
+    best.c = end_of_points(face, edge, loop_edge);
+  }
+  return best;
+}
+
+Loop EdgeSnapper::snap(std::size_t index, const Loop& loop, bool is_hole) const {
+  constexpr double kMinSine = 0.25;  // of two edges that make a corner
+  constexpr double kMaxMove = 0.5;   // [m]
+  const std::size_t size = loop.size();
+  std::vector<Line> lines;
+  for (std::size_t i = 0; i < size; ++i) {
+    lines.push_back(edge_line(index, {loop[i], loop[(i + 1) % size], is_hole}));
+  }
+  Loop result;
+  for (std::size_t i = 0; i < size; ++i) {
+    const Line& before = lines[(i + size - 1) % size];
+    const Line& after = lines[i];
+    const double sine = before.a * after.b - before.b * after.a;
+    PlanePoint corner = loop[i];
+    if (std::abs(sine) > kMinSine) {
+      corner = {
+          (before.c * after.b - before.b * after.c) / sine,
+          (before.a * after.c - before.c * after.a) / sine};
+    } else {
+      const double off = after.a * corner.u + after.b * corner.v - after.c;
+      corner = {corner.u - off * after.a, corner.v - off * after.b};
+    }
+    result.push_back(length(corner, loop[i]) < kMaxMove ? corner : loop[i]);
+  }
+  return result;
+}
+
+}  // namespace nvm::survey

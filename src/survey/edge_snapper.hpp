@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <vector>
+
+#include "survey/face.hpp"
+#include "survey/outline.hpp"
+
+namespace nvm::survey {
+
+/// Sharpens outlines that were traced over cells.
+class EdgeSnapper {
+ public:
+  /// `faces` must outlive it.
+  EdgeSnapper(const SurveyCloud& cloud, const std::vector<Face>& faces)
+      : cloud_(cloud), faces_(faces) {}
+
+  /// `loop` on face `index`, each edge moved to the line in which another face cuts the plane of
+  /// this one, where one runs along it nearby: corners of rooms then are where three planes meet.
+  /// Other edges go to the outermost of the face's points, or, where the loop bounds a hole, to the
+  /// first of those around it. A corner is where its edges meet.
+  Loop snap(std::size_t index, const Loop& loop, bool is_hole = false) const;
+
+ private:
+  /// {p : a u + b v = c}, (a, b) a unit vector to the right of the edge: outwards.
+  struct Line {
+    double a;
+    double b;
+    double c;
+  };
+
+  struct Edge {
+    PlanePoint from;
+    PlanePoint to;
+    bool is_of_hole;
+  };
+
+  Line edge_line(std::size_t index, const Edge& edge) const;
+  double end_of_points(const Face& face, const Line& line, const Edge& edge) const;
+
+  const SurveyCloud& cloud_;
+  const std::vector<Face>& faces_;
+};
+
+}  // namespace nvm::survey

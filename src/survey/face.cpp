@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include "survey/face.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nvm::survey {
+
+namespace {
+
+constexpr int kClosing = 2;  // cells; gaps of up to 0.4 m are no openings
+
+std::vector<std::uint32_t> points_of(const PatchGrid& grid, const PlanarRegion& region) {
+  std::vector<std::uint32_t> points;
+  points.reserve(static_cast<std::size_t>(region.sums.count));
+  for (const std::uint32_t patch : region.patches) {
+    for (std::uint32_t i = grid.patches()[patch].begin; i < grid.patches()[patch].end; ++i) {
+      points.push_back(grid.order()[i]);
+    }
+  }
+  std::sort(points.begin(), points.end());
+  return points;
+}
+
+/// Four robust standard deviations of the points' distances to `plane`, at least 5 mm.
+double gate_of(
+    const SurveyCloud& cloud,
+    const std::vector<std::uint32_t>& points,
+    const eval::OrientedPlane& plane) {
+  constexpr double kDeviationPerMedian = 1.4826;
+  constexpr double kMinGate = 0.005;
+  std::vector<double> distances;
+  distances.reserve(points.size());
+  for (const std::uint32_t i : points) {
+    distances.push_back(std::abs(plane.distance(cloud.positions[i])));
+  }
+  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+  std::nth_element(distances.begin(), middle, distances.end());
+  return std::max(kMinGate, 4.0 * kDeviationPerMedian * *middle);
+}
+
+/// Fits the plane of `face` to those of `all` that lie on it.
+bool refine(const SurveyCloud& cloud, const std::vector<std::uint32_t>& all, Face& face) {
+  constexpr int kIterations = 3;
+  constexpr std::size_t kMinPoints = 15;
+  for (int i = 0; i < kIterations; ++i) {
+    const double gate = gate_of(cloud, all, face.plane);
+    PlaneSums sums;
+    face.points.clear();
+    for (const std::uint32_t point : all) {
+      if (std::abs(face.plane.distance(cloud.positions[point])) <= gate) {
+        sums.add(cloud.positions[point]);
+        face.points.push_back(point);
+      }
+    }
+    const auto plane = fit_plane(sums, face.plane.normal);
+    if (face.points.size() < kMinPoints || !plane) {
+      return false;
+    }
+    face.plane = *plane;
+    face.rms = rms_distance(sums, face.plane);
+  }
+  return true;
+}
+
+}  // namespace
+
+std::optional<Face> make_face(
+    const SurveyCloud& cloud,
+    const PatchGrid& grid,
+    const PlanarRegion& region,
+    const Directions& directions,
+    double cell) {
+  Face face;
+  face.plane = region.plane;
+  if (!refine(cloud, points_of(grid, region), face)) {
+    return std::nullopt;
+  }
+  face.frame = plane_frame(face.plane, region.sums.mean(), directions.along, directions.up);
+  for (const std::uint32_t i : face.points) {
+    const Eigen::Vector3d& p = cloud.positions[i];
+    face.box.extend(face.frame.coordinate_u(p), face.frame.coordinate_v(p));
+  }
+  Mask mask(face.box, cell, kClosing + 1);
+  for (const std::uint32_t i : face.points) {
+    const Eigen::Vector3d& p = cloud.positions[i];
+    mask.set(mask.column(face.frame.coordinate_u(p)), mask.row(face.frame.coordinate_v(p)));
+  }
+  face.seen = closed(mask, kClosing);
+  return face;
+}
+
+}  // namespace nvm::survey

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include "survey/patch_grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace nvm::survey {
+
+namespace {
+
+constexpr int kBits = 21;       // of a key, per axis
+constexpr double kReach = 5e4;  // [m]; with the smallest cells, 2^20 of them
+
+std::uint64_t key_of(const Eigen::Vector3d& p, double size) {
+  std::uint64_t key = 0;
+  for (int axis = 2; axis >= 0; --axis) {
+    const auto index = static_cast<std::int64_t>(std::floor(p[axis] / size)) + (1 << (kBits - 1));
+    key = (key << kBits) | static_cast<std::uint64_t>(index);
+  }
+  return key;
+}
+
+/// The median of each coordinate of the finite positions.
+Eigen::Vector3d middle_of(const std::vector<Eigen::Vector3d>& positions) {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  std::vector<double> values;
+  for (int axis = 0; axis < 3; ++axis) {
+    values.clear();
+    const std::size_t step = 1 + positions.size() / 10000;
+    for (std::size_t i = 0; i < positions.size(); i += step) {
+      if (positions[i].allFinite()) {
+        values.push_back(positions[i][axis]);
+      }
+    }
+    if (!values.empty()) {
+      const auto center = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+      std::nth_element(values.begin(), center, values.end());
+      middle[axis] = std::round(*center);
+    }
+  }
+  return middle;
+}
+
+/// A surface within a cell while its points are being gathered.
+struct Cluster {
+  PlaneSums sums;
+  Eigen::Vector3d normal_sum = Eigen::Vector3d::Zero();
+  std::vector<std::uint32_t> points;
+
+  bool takes(const Eigen::Vector3d& p, const Eigen::Vector3d& n) const {
+    constexpr double kMinCosine = 0.82;  // 35 degrees
+    constexpr double kMaxOffset = 0.05;  // [m]
+    const double length = normal_sum.norm();
+    const double offset = normal_sum.dot(p - sums.mean());
+    return normal_sum.dot(n) > kMinCosine * length && std::abs(offset) < kMaxOffset * length;
+  }
+};
+
+}  // namespace
+
+SurveyCloud survey_cloud(const io::MapCloud& cloud) {
+  constexpr float kMinLength = 0.5F;
+  SurveyCloud result;
+  result.origin = middle_of(cloud.positions);
+  result.positions.reserve(cloud.positions.size());
+  result.normals.reserve(cloud.positions.size());
+  for (std::size_t i = 0; i < cloud.normals.size(); ++i) {
+    const Eigen::Vector3d p = cloud.positions[i] - result.origin;
+    const float length = cloud.normals[i].norm();
+    if (p.cwiseAbs().maxCoeff() < kReach && p.allFinite() && length >= kMinLength &&
+        std::isfinite(length)) {
+      result.positions.push_back(p);
+      result.normals.push_back(cloud.normals[i] / length);
+    }
+  }
+  result.left_out = cloud.positions.size() - result.positions.size();
+  if (result.positions.empty()) {
+    throw std::invalid_argument(
+        "none of the " + std::to_string(cloud.positions.size()) +
+        " points has a normal, which tells the two faces of a wall apart; make the map with "
+        "`nvm run` or `nvm map`, with map.type=nvm");
+  }
+  return result;
+}
+
+PatchGrid::PatchGrid(const SurveyCloud& cloud, double size) : size_(size) {
+  sort_points(cloud);
+  for (std::size_t begin = 0, end = 0; begin < order_.size(); begin = end) {
+    while (end < order_.size() && point_keys_[end] == point_keys_[begin]) {
+      ++end;
+    }
+    keys_.push_back(point_keys_[begin]);
+    first_patch_.push_back(static_cast<std::uint32_t>(patches_.size()));
+    add_patches(cloud, begin, end);
+  }
+  first_patch_.push_back(static_cast<std::uint32_t>(patches_.size()));
+  point_keys_ = {};
+  find_rows();
+}
+
+void PatchGrid::sort_points(const SurveyCloud& cloud) {
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> keyed(cloud.positions.size());
+  for (std::size_t i = 0; i < keyed.size(); ++i) {
+    keyed[i] = {key_of(cloud.positions[i], size_), static_cast<std::uint32_t>(i)};
+  }
+  std::sort(keyed.begin(), keyed.end());
+  order_.reserve(keyed.size());
+  point_keys_.reserve(keyed.size());
+  for (const auto& [key, index] : keyed) {
+    order_.push_back(index);
+    point_keys_.push_back(key);
+  }
+}
+
+void PatchGrid::add_patches(const SurveyCloud& cloud, std::size_t begin, std::size_t end) {
+  std::vector<Cluster> clusters;
+  for (std::size_t i = begin; i < end; ++i) {
+    const Eigen::Vector3d& p = cloud.positions[order_[i]];
+    const Eigen::Vector3d n = cloud.normals[order_[i]].cast<double>();
+    auto cluster = std::find_if(
+        clusters.begin(), clusters.end(), [&](const Cluster& c) { return c.takes(p, n); });
+    if (cluster == clusters.end()) {
+      cluster = clusters.insert(cluster, Cluster());
+    }
+    cluster->sums.add(p);
+    cluster->normal_sum += n;
+    cluster->points.push_back(order_[i]);
+  }
+  const auto cell = static_cast<std::uint32_t>(keys_.size() - 1);
+  auto position = static_cast<std::uint32_t>(begin);
+  for (const Cluster& cluster : clusters) {
+    Patch patch;
+    patch.cell = cell;
+    patch.begin = position;
+    for (const std::uint32_t point : cluster.points) {
+      order_[position++] = point;
+    }
+    patch.end = position;
+    patch.sums = cluster.sums;
+    patch.mean = cluster.sums.mean();
+    patch.normal = cluster.normal_sum.normalized();
+    patches_.push_back(patch);
+  }
+}
+
+void PatchGrid::find_rows() {
+  const auto cells = static_cast<std::uint32_t>(keys_.size());
+  rows_.resize(cells);
+  std::size_t row = 0;
+  for (int dz = -1; dz <= 1; ++dz) {
+    for (int dy = -1; dy <= 1; ++dy, ++row) {
+      // Keys ascend, and so do the keys of the cells beside them.
+      const auto shift = static_cast<std::uint64_t>(
+          dz * (std::int64_t{1} << (2 * kBits)) + dy * (std::int64_t{1} << kBits));
+      std::uint32_t begin = 0;
+      std::uint32_t end = 0;
+      for (std::uint32_t cell = 0; cell < cells; ++cell) {
+        const std::uint64_t center = keys_[cell] + shift;
+        while (begin < cells && keys_[begin] < center - 1) {
+          ++begin;
+        }
+        while (end < cells && keys_[end] <= center + 1) {
+          ++end;
+        }
+        rows_[cell][row] = {begin, end};
+      }
+    }
+  }
+}
+
+double PatchGrid::noise() const {
+  constexpr double kMinCount = 5.0;
+  std::vector<double> spreads;
+  for (const Patch& patch : patches_) {
+    if (patch.sums.count >= kMinCount) {
+      const auto plane = fit_plane(patch.sums, patch.normal);
+      if (plane) {
+        const double freedom = patch.sums.count / (patch.sums.count - 3.0);
+        spreads.push_back(rms_distance(patch.sums, *plane) * std::sqrt(freedom));
+      }
+    }
+  }
+  if (spreads.empty()) {
+    return 0.0;
+  }
+  const auto center = spreads.begin() + static_cast<std::ptrdiff_t>(spreads.size() / 2);
+  std::nth_element(spreads.begin(), center, spreads.end());
+  return *center;
+}
+
+}  // namespace nvm::survey

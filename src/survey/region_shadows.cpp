@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include "survey/region_shadows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <map>
+
+namespace nvm::survey {
+
+namespace {
+
+constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
+/// The region that each patch belongs to.
+std::vector<std::size_t> owners(const PatchGrid& grid, const std::vector<PlanarRegion>& regions) {
+  std::vector<std::size_t> owner(grid.patches().size(), kNone);
+  for (std::size_t i = 0; i < regions.size(); ++i) {
+    for (const std::uint32_t patch : regions[i].patches) {
+      owner[patch] = i;
+    }
+  }
+  return owner;
+}
+
+/// How many patches of region `index` have one of each other region beside them.
+std::map<std::size_t, std::size_t> count_neighbors(
+    const PatchGrid& grid, const PlanarRegion& region, const std::vector<std::size_t>& owner) {
+  std::map<std::size_t, std::size_t> counts;
+  std::vector<std::size_t> beside;
+  for (const std::uint32_t patch : region.patches) {
+    beside.clear();
+    grid.for_each_near(patch, [&](std::uint32_t i) {
+      if (owner[i] != kNone && owner[i] != owner[patch]) {
+        beside.push_back(owner[i]);
+      }
+    });
+    std::sort(beside.begin(), beside.end());
+    beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
+    for (const std::size_t other : beside) {
+      ++counts[other];
+    }
+  }
+  return counts;
+}
+
+}  // namespace
+
+void drop_shadows(const PatchGrid& grid, double noise, std::vector<PlanarRegion>& regions) {
+  constexpr double kMinCosine = 0.95;
+  constexpr double kMinShare = 0.6;
+  const double reach = std::max(0.02, 4.0 * noise);
+  const std::vector<std::size_t> owner = owners(grid, regions);
+  const auto is_shadow = [&](const PlanarRegion& region) {
+    for (const auto& [index, count] : count_neighbors(grid, region, owner)) {
+      const PlanarRegion& other = regions[index];
+      if (static_cast<double>(count) > kMinShare * static_cast<double>(region.patches.size()) &&
+          other.sums.count >= 2.0 * region.sums.count &&
+          other.plane.normal.dot(region.plane.normal) > kMinCosine &&
+          std::abs(other.plane.distance(region.sums.mean())) < reach) {
+        return true;
+      }
+    }
+    return false;
+  };
+  std::vector<PlanarRegion> kept;
+  for (const PlanarRegion& region : regions) {
+    if (!is_shadow(region)) {
+      kept.push_back(region);
+    }
+  }
+  regions = std::move(kept);
+}
+
+}  // namespace nvm::survey
