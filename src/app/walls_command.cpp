@@ -10,11 +10,11 @@
 #include <string>
 
 #include "app/doing.hpp"
-#include "app/map_files.hpp"
 #include "app/map_origin.hpp"
 #include "app/say.hpp"
 #include "io/file.hpp"
 #include "io/map_cloud.hpp"
+#include "io/map_files.hpp"
 #include "nvm/map/serialization.hpp"
 #include "survey/survey.hpp"
 #include "survey/survey_files.hpp"
@@ -35,7 +35,7 @@ io::MapCloud read_map(const std::string& path) {
   if (extension == ".ply" || extension == ".pcd") {
     return io::read_map_cloud(path);
   }
-  return map_cloud_of(load_map(path).points(), read_origin(path));
+  return io::map_cloud_of(load_map(path).points(), read_origin(path));
 }
 
 void print_summary(const survey::Survey& found, const std::string& folder) {

@@ -23,7 +23,7 @@ struct Candidate {
   bool is_taken = false;
 };
 
-PlaneBox box_in(const PatchGrid& grid, const PlanarRegion& region, const PlaneFrame& frame) {
+PlaneBox box_of(const PatchGrid& grid, const PlanarRegion& region, const PlaneFrame& frame) {
   const double half = 0.5 * grid.size();
   PlaneBox box;
   for (const std::uint32_t patch : region.patches) {
@@ -44,7 +44,7 @@ void update(const PatchGrid& grid, Candidate& candidate) {
   const Eigen::Vector3d up = is_level ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitZ();
   const Eigen::Vector3d along = is_level ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitX();
   candidate.frame = plane_frame(region.plane, candidate.mean, along, up);
-  candidate.box = box_in(grid, region, candidate.frame);
+  candidate.box = box_of(grid, region, candidate.frame);
 }
 
 /// True when `small` lies on the plane of `large`: one plane fits both as well as one each.
@@ -89,7 +89,7 @@ std::vector<PlanarRegion> join_coplanar(
       for (std::size_t j = i + 1; j < candidates.size(); ++j) {
         Candidate& small = candidates[j];
         if (!small.is_taken && lies_on(large, small, limits.noise) &&
-            large.box.gap(box_in(grid, small.region, large.frame)) <= limits.max_gap) {
+            large.box.gap(box_in(large.frame, small.frame, small.box)) <= limits.max_gap) {
           small.is_taken = true;
           large.region.sums += small.region.sums;
           large.region.patches.insert(

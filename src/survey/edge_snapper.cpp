@@ -25,20 +25,49 @@ bool is_near(const Face& other, const Eigen::Vector3d& p) {
 
 }  // namespace
 
-double EdgeSnapper::end_of_points(const Face& face, const Line& line, const Edge& edge) const {
+EdgeSnapper::EdgeSnapper(const SurveyCloud& cloud, const std::vector<Face>& faces)
+    : cloud_(cloud), faces_(faces) {
+  for (const Face& face : faces) {
+    Eigen::AlignedBox3d box;
+    for (const double u : {face.box.min_u, face.box.max_u}) {
+      for (const double v : {face.box.min_v, face.box.max_v}) {
+        box.extend(face.frame.point(u, v));
+      }
+    }
+    boxes_.push_back(box);
+  }
+}
+
+EdgeSnapper::Surroundings EdgeSnapper::surroundings(std::size_t index) const {
+  constexpr double kMaxCosine = 0.87;  // of two planes that cut: 30 degrees
+  const Face& face = faces_[index];
+  Surroundings result{face, {}, {}};
+  const Eigen::Vector3d reach = Eigen::Vector3d::Constant(2.0 * kReach);
+  const Eigen::AlignedBox3d box(boxes_[index].min() - reach, boxes_[index].max() + reach);
+  for (std::size_t i = 0; i < faces_.size(); ++i) {
+    if (box.intersects(boxes_[i]) &&
+        std::abs(faces_[i].plane.normal.dot(face.plane.normal)) < kMaxCosine) {
+      result.neighbors.push_back(&faces_[i]);
+    }
+  }
+  for (const std::uint32_t i : face.points) {
+    const Eigen::Vector3d& p = cloud_.positions[i];
+    result.points.push_back({face.frame.coordinate_u(p), face.frame.coordinate_v(p)});
+  }
+  return result;
+}
+
+double EdgeSnapper::end_of_points(const Surroundings& around, const Line& line, const Edge& edge) {
   constexpr double kShare = 0.95;  // of the points near the edge that lie within it
   constexpr std::size_t kMinPoints = 5;
   const double reach = length(edge.from, edge.to);
   const double along_u = (edge.to.u - edge.from.u) / reach;
   const double along_v = (edge.to.v - edge.from.v) / reach;
   std::vector<double> offsets;
-  for (const std::uint32_t i : face.points) {
-    const Eigen::Vector3d& p = cloud_.positions[i];
-    const double u = face.frame.coordinate_u(p);
-    const double v = face.frame.coordinate_v(p);
+  for (const auto& [u, v] : around.points) {
     const double offset = line.a * u + line.b * v - line.c;
     const double along = along_u * (u - edge.from.u) + along_v * (v - edge.from.v);
-    if (std::abs(offset) < 1.5 * face.seen.cell() && along > 0.0 && along < reach) {
+    if (std::abs(offset) < 1.5 * around.face.seen.cell() && along > 0.0 && along < reach) {
       offsets.push_back(offset);
     }
   }
@@ -51,10 +80,9 @@ double EdgeSnapper::end_of_points(const Face& face, const Line& line, const Edge
          offsets[static_cast<std::size_t>(share * static_cast<double>(offsets.size() - 1))];
 }
 
-EdgeSnapper::Line EdgeSnapper::edge_line(std::size_t index, const Edge& loop_edge) const {
-  constexpr double kMaxCosine = 0.87;  // of two planes that cut: 30 degrees
-  constexpr double kMaxSlope = 0.18;   // of an edge against the cut: 10 degrees
-  const Face& face = faces_[index];
+EdgeSnapper::Line EdgeSnapper::edge_line(const Surroundings& around, const Edge& loop_edge) {
+  constexpr double kMaxSlope = 0.18;  // of an edge against the cut: 10 degrees
+  const Face& face = around.face;
   const auto& [from, to, is_of_hole] = loop_edge;
   const double edge_length = std::max(length(from, to), 1e-9);
   Line edge{(to.v - from.v) / edge_length, (from.u - to.u) / edge_length, 0.0};
@@ -63,15 +91,15 @@ EdgeSnapper::Line EdgeSnapper::edge_line(std::size_t index, const Edge& loop_edg
   double best_distance = kReach;
   const double middle_u = 0.5 * (from.u + to.u);
   const double middle_v = 0.5 * (from.v + to.v);
-  for (const Face& other : faces_) {
-    const double cosine = other.plane.normal.dot(face.plane.normal);
-    if (std::abs(cosine) > kMaxCosine || !is_near(other, face.frame.point(middle_u, middle_v))) {
+  const Eigen::Vector3d middle = face.frame.point(middle_u, middle_v);
+  for (const Face* other : around.neighbors) {
+    if (!is_near(*other, middle)) {
       continue;
     }
     Line cut{
-        other.plane.normal.dot(face.frame.u),
-        other.plane.normal.dot(face.frame.v),
-        -other.plane.distance(face.frame.origin)};
+        other->plane.normal.dot(face.frame.u),
+        other->plane.normal.dot(face.frame.v),
+        -other->plane.distance(face.frame.origin)};
     const double scale =
         (cut.a * edge.a + cut.b * edge.b < 0.0 ? -1.0 : 1.0) / std::hypot(cut.a, cut.b);
     cut = {scale * cut.a, scale * cut.b, scale * cut.c};
@@ -83,7 +111,7 @@ EdgeSnapper::Line EdgeSnapper::edge_line(std::size_t index, const Edge& loop_edg
     }
   }
   if (best_distance == kReach && length(from, to) > face.seen.cell()) {
-    best.c = end_of_points(face, edge, loop_edge);
+    best.c = end_of_points(around, edge, loop_edge);
   }
   return best;
 }
@@ -92,9 +120,10 @@ Loop EdgeSnapper::snap(std::size_t index, const Loop& loop, bool is_hole) const 
   constexpr double kMinSine = 0.25;  // of two edges that make a corner
   constexpr double kMaxMove = 0.5;   // [m]
   const std::size_t size = loop.size();
+  const Surroundings around = surroundings(index);
   std::vector<Line> lines;
   for (std::size_t i = 0; i < size; ++i) {
-    lines.push_back(edge_line(index, {loop[i], loop[(i + 1) % size], is_hole}));
+    lines.push_back(edge_line(around, {loop[i], loop[(i + 1) % size], is_hole}));
   }
   Loop result;
   for (std::size_t i = 0; i < size; ++i) {

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The nvm authors
 #pragma once
 
+#include <Eigen/Geometry>
 #include <vector>
 
 #include "survey/face.hpp"
@@ -13,8 +14,7 @@ namespace nvm::survey {
 class EdgeSnapper {
  public:
   /// `faces` must outlive it.
-  EdgeSnapper(const SurveyCloud& cloud, const std::vector<Face>& faces)
-      : cloud_(cloud), faces_(faces) {}
+  EdgeSnapper(const SurveyCloud& cloud, const std::vector<Face>& faces);
 
   /// `loop` on face `index`, each edge moved to the line in which another face cuts the plane of
   /// this one, where one runs along it nearby: corners of rooms then are where three planes meet.
@@ -36,11 +36,20 @@ class EdgeSnapper {
     bool is_of_hole;
   };
 
-  Line edge_line(std::size_t index, const Edge& edge) const;
-  double end_of_points(const Face& face, const Line& line, const Edge& edge) const;
+  /// What the edges of a face may belong to.
+  struct Surroundings {
+    const Face& face;
+    std::vector<const Face*> neighbors;
+    Loop points;  ///< the face's own, in no order
+  };
+
+  Surroundings surroundings(std::size_t index) const;
+  static Line edge_line(const Surroundings& around, const Edge& edge);
+  static double end_of_points(const Surroundings& around, const Line& line, const Edge& edge);
 
   const SurveyCloud& cloud_;
   const std::vector<Face>& faces_;
+  std::vector<Eigen::AlignedBox3d> boxes_;  ///< around the faces
 };
 
 }  // namespace nvm::survey

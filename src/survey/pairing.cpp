@@ -20,13 +20,7 @@ bool may_pair(const Face& a, const Face& b, double max_thickness) {
   if (a.plane.normal.dot(b.plane.normal) > kMaxCosine) {
     return false;
   }
-  PlaneBox box;
-  for (const double u : {b.box.min_u, b.box.max_u}) {
-    for (const double v : {b.box.min_v, b.box.max_v}) {
-      const Eigen::Vector3d corner = b.frame.point(u, v);
-      box.extend(a.frame.coordinate_u(corner), a.frame.coordinate_v(corner));
-    }
-  }
+  const PlaneBox box = box_in(a.frame, b.frame, b.box);
   if (a.box.gap(box) > 0.0) {
     return false;
   }

@@ -25,4 +25,15 @@ PlaneFrame plane_frame(
   return frame;
 }
 
+PlaneBox box_in(const PlaneFrame& to, const PlaneFrame& from, const PlaneBox& box) {
+  PlaneBox result;
+  for (const double u : {box.min_u, box.max_u}) {
+    for (const double v : {box.min_v, box.max_v}) {
+      const Eigen::Vector3d corner = from.point(u, v);
+      result.extend(to.coordinate_u(corner), to.coordinate_v(corner));
+    }
+  }
+  return result;
+}
+
 }  // namespace nvm::survey

@@ -53,4 +53,7 @@ struct PlaneBox {
   }
 };
 
+/// What `box`, of the frame `from`, covers in the frame `to`.
+PlaneBox box_in(const PlaneFrame& to, const PlaneFrame& from, const PlaneBox& box);
+
 }  // namespace nvm::survey

@@ -102,6 +102,13 @@ double lowest_level(
   return lowest + cloud.origin.dot(up);
 }
 
+/// Half of how far the faces of `wall` leave their planes [m], when that is far: it is not known
+/// then where on them the thickness is wanted.
+double bending(const Wall& wall, double noise) {
+  const double bow = std::max(wall.faces[0].bow, wall.faces[1].bow);
+  return bow > std::max(0.005, 4.0 * noise) ? 0.5 * bow : 0.0;
+}
+
 /// The variance of `wall` [m²]: noise, as far as it is alike over half a metre; once for each side
 /// what faces are bent by, which is taken for what they are shifted by; and the drift.
 double sq_uncertainty(const WallThickness& wall, const Survey& survey, double drift) {
@@ -139,7 +146,10 @@ Survey survey_walls(const io::MapCloud& map, const SurveyOptions& options) {
   WallBuilder builder(cloud, faces, measured.pairs, directions.up, options);
   for (std::size_t i = 0; i < measured.pairs.size(); ++i) {
     Wall wall = builder.wall(i, measured.walls[i]);
-    wall.thickness_std = std::sqrt(sq_uncertainty(measured.walls[i], survey, options.drift));
+    const double bend = bending(wall, survey.noise);
+    wall.is_bent = bend > 0.0;
+    wall.thickness_std =
+        std::sqrt(sq_uncertainty(measured.walls[i], survey, options.drift) + bend * bend);
     const bool is_body = wall.kind == WallKind::kColumn || wall.kind == WallKind::kFurniture;
     (is_body ? survey.bodies : survey.walls).push_back(std::move(wall));
   }

@@ -57,10 +57,11 @@ struct Wall {
   WallKind kind = WallKind::kWall;
   double thickness = 0.0;      ///< [m]
   double thickness_std = 0.0;  ///< standard uncertainty of `thickness` [m]; ± 1.96 of it is 95 %
-  double angle = 0.0;          ///< between the faces' planes [rad]
-  double area = 0.0;           ///< seen from both sides [m²]
-  double length = 0.0;         ///< level extent of what was seen from both sides [m]
-  double height = 0.0;         ///< the other extent [m]
+  bool is_bent = false;  ///< a face leaves its plane by 5 mm and more: curved, or badly mapped
+  double angle = 0.0;    ///< between the faces' planes [rad]
+  double area = 0.0;     ///< seen from both sides [m²]
+  double length = 0.0;   ///< level extent of what was seen from both sides [m]
+  double height = 0.0;   ///< the other extent [m]
   std::array<SurveyFace, 2> faces;
   std::vector<Opening> openings;
 };

@@ -44,6 +44,7 @@ json wall_of(const Wall& wall) {
   result["thickness"] = wall.thickness;
   result["thickness_std"] = wall.thickness_std;
   result["kind"] = kind_name(wall.kind);
+  result["bent"] = wall.is_bent;
   result["angle_deg"] = kDegrees * wall.angle;
   result["area"] = wall.area;
   result["length"] = wall.length;

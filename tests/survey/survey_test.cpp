@@ -7,6 +7,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "eval/thickness.hpp"
+#include "eval/wall_points.hpp"
 #include "support/rng.hpp"
 #include "survey/surface_sampler.hpp"
 #include "survey/survey.hpp"
@@ -17,6 +19,7 @@ namespace {
 using test::SurfaceSampler;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::SizeIs;
 
 std::vector<WallKind> kinds(const std::vector<Wall>& walls) {
@@ -147,6 +150,56 @@ TEST(Survey, LowLevelAndSlopedPairsSayWhatTheyAre) {
   EXPECT_NEAR(survey.walls[1].thickness, 0.15 * std::sqrt(0.5), 0.001);
   EXPECT_NEAR(survey.walls[2].thickness, 0.2, 0.001);
   EXPECT_THAT(kinds(survey.bodies), ElementsAre(WallKind::kColumn, WallKind::kColumn));
+}
+
+TEST(Survey, ACurvedWallComesOutAsStripsOfItsThickness) {
+  auto random = test::rng();
+  SurfaceSampler sampler(random);
+  constexpr int kFacets = 60;
+  for (int i = 0; i < kFacets; ++i) {
+    const double a = 1.5 * i / kFacets;
+    const double b = 1.5 * (i + 1) / kFacets;
+    const auto at = [](double radius, double angle) {
+      return Eigen::Vector3d(radius * std::cos(angle), radius * std::sin(angle), 0.0);
+    };
+    const Eigen::Vector3d z(0, 0, 2.5);
+    sampler.add(at(4.1, a), at(4.1, b) - at(4.1, a), z);
+    sampler.add(at(4.0, b), at(4.0, a) - at(4.0, b), z);
+  }
+  const Survey survey = survey_walls(sampler.cloud, {});
+  EXPECT_THAT(survey.walls, Not(IsEmpty()));
+  for (const Wall& wall : survey.walls) {
+    EXPECT_NEAR(wall.thickness, 0.1, 0.005);
+  }
+}
+
+// The evaluation is told the faces; the survey is told nothing.
+TEST(Survey, TheEvaluationThatKnowsTheFacesAgrees) {
+  auto random = test::rng();
+  SurfaceSampler sampler(random);
+  const double thickness = 0.04;
+  sampler.add_wall({0, 0}, {4, 0}, thickness, 2.5);
+  eval::WallPiece piece;
+  for (const std::size_t side : {0U, 1U}) {
+    eval::WallFace& face = piece.faces[side];
+    face.plane = {(side == 0 ? -1.0 : 1.0) * Eigen::Vector3d::UnitY(), 0.5 * thickness};
+    face.center = {2.0, (side == 0 ? -0.5 : 0.5) * thickness, 1.25};
+    face.u = Eigen::Vector3d::UnitX();
+    face.v = Eigen::Vector3d::UnitZ();
+    face.half_u = 2.0;
+    face.half_v = 1.25;
+  }
+  piece.thickness = thickness;
+  eval::OrientedCloud cloud;
+  for (std::size_t i = 0; i < sampler.cloud.positions.size(); ++i) {
+    cloud.points.push_back({sampler.cloud.positions[i], sampler.cloud.normals[i].cast<double>()});
+  }
+  const auto known = eval::measure_thickness(
+      eval::wall_points(cloud, piece, {}), {piece.faces[0].plane, piece.faces[1].plane}, {});
+  const Survey survey = survey_walls(sampler.cloud, {});
+  ASSERT_TRUE(known.has_value());
+  ASSERT_THAT(survey.walls, SizeIs(1));
+  EXPECT_NEAR(survey.walls[0].thickness, known->value, 2e-4);
 }
 
 TEST(Survey, TheFrameOfTheMapDoesNotMatter) {
