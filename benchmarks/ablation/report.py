@@ -8,7 +8,8 @@ from cases import MAPS, PIPELINES, SENSORS
 
 STAGES = {"map_update": "Map update", "optimize": "Optimise", "pose_estimation": "Pose estimation",
           "measurement": "Process measurement", "normals": "Normals", "total": "Total"}
-SENSOR_NAMES = {"mid360": "Livox-like (Mid-360)", "vlp16": "Velodyne-like (VLP-16)"}
+SENSOR_NAMES = {"mid360": "Livox-like (Mid-360)", "vlp16": "Velodyne-like (VLP-16)", "avia": "Livox-like (Avia)"}
+TABLE_NUMBERS = {"mid360": "Table II: ", "vlp16": "Table III: "}  # of the paper
 
 
 def by_value(rows: list, key: str, order: list = ()) -> dict:
@@ -75,10 +76,10 @@ def pipeline_table(rows: list, sensor: str) -> dict:
 
 def plain_tables(rows: list) -> list:
     tables = []
-    for number, (sensor, group) in zip(("II", "III"), by_value(rows, "sensor", SENSORS).items()):
+    for sensor, group in by_value(rows, "sensor", SENSORS).items():
         for pipeline, chosen in by_value(group, "pipeline", PIPELINES).items():
             tables.append(map_table(
-                chosen, f"Table {number}: ATE RMSE, {SENSOR_NAMES[sensor]}, {pipeline} [mm]", lambda row: row["ate_mm"]))
+                chosen, f"{TABLE_NUMBERS.get(sensor, '')}ATE RMSE, {SENSOR_NAMES[sensor]}, {pipeline} [mm]", lambda row: row["ate_mm"]))
         tables.append(pipeline_table([row for row in group if row["map"] == "nvm"], sensor))
     fast = [row for row in rows if row["pipeline"] == "fast_lio"]
     tables.append(thickness_table([row for row in fast if row["scene"] == "seven_walls"]))
@@ -112,10 +113,9 @@ def failures(rows: list) -> list:
     return [f"{row['sequence']}, {row['pipeline']}, {row['map']}: {row['failure']}" for row in rows if "failure" in row]
 
 
-def tables(rows: list) -> str:
-    """Markdown."""
+def markdown(tables: list, rows: list) -> str:
     lines = []
-    for one in all_tables(rows):
+    for one in tables:
         lines += ["", f"**{one['title']}**", "", "| " + " | ".join(one["head"]) + " |", "|" + "---|" * len(one["head"])]
         lines += ["| " + " | ".join(row) + " |" for row in one["body"]]
     if failures(rows):
@@ -123,12 +123,12 @@ def tables(rows: list) -> str:
     return "\n".join([*lines, "", ""])
 
 
-def page(rows: list) -> str:
+def page(tables: list, rows: list) -> str:
     """One HTML file, nothing loaded from elsewhere."""
     style = ("body{font:15px sans-serif;margin:2em auto;max-width:70em}table{border-collapse:collapse;margin:1em 0}"
              "td,th{padding:.2em .8em;border-bottom:1px solid #ccc;text-align:right}td:first-child,th:first-child{text-align:left}")
     parts = [f"<!doctype html><meta charset='utf-8'><title>nvm: ablation</title><style>{style}</style><h1>Ablation</h1>"]
-    for one in all_tables(rows):
+    for one in tables:
         cells = lambda tag, values: "".join(f"<{tag}>{html.escape(value)}</{tag}>" for value in values)
         parts.append(f"<h2>{html.escape(one['title'].replace('`', ''))}</h2><table><tr>{cells('th', one['head'])}</tr>")
         parts += [f"<tr>{cells('td', row)}</tr>" for row in one["body"]]

@@ -42,6 +42,7 @@ TrajectoryEvaluation evaluate_trajectory(
   }
   result.errors = position_errors(pairs, result.alignment);
   result.absolute = *summarize(result.errors);
+  result.axis_rmse = axis_rmse(pairs, result.alignment);
   result.per_frame = relative_error(pairs, StepUnit::kFrame);
   result.per_second = relative_error(pairs, StepUnit::kSecond);
   result.per_metre = relative_error(pairs, StepUnit::kMetre);

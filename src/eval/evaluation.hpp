@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The nvm authors
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -41,8 +42,9 @@ struct TrajectoryEvaluation {
   double truth_seconds = 0.0;  ///< of the truth: what lies beyond the pairs is not judged
   Association association;
   Alignment alignment;
-  std::vector<double> errors;  ///< [m], per pair of the association
-  ErrorStatistics absolute;    ///< of `errors`
+  std::vector<double> errors;         ///< [m], per pair of the association
+  ErrorStatistics absolute;           ///< of `errors`
+  std::array<double, 3> axis_rmse{};  ///< of their parts along x, y and z of the world [m]
   RelativeError per_frame;
   RelativeError per_second;
   RelativeError per_metre;

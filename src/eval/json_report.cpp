@@ -55,6 +55,7 @@ json to_json(const std::optional<TrajectoryEvaluation>& trajectory) {
       {"truth_seconds", trajectory->truth_seconds},
       {"T_world_map", to_json(trajectory->alignment)},
       {"ate_m", to_json(trajectory->absolute)},
+      {"axis_rmse_m", trajectory->axis_rmse},
       {"rpe_per_frame", to_json(trajectory->per_frame)},
       {"rpe_per_second", to_json(trajectory->per_second)},
       {"rpe_per_metre", to_json(trajectory->per_metre)}};

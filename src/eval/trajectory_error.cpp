@@ -51,6 +51,10 @@ Pose step_error(const PosePair& from, const PosePair& to) {
   return T_true.inverse() * T_estimated;
 }
 
+Eigen::Vector3d position_offset(const PosePair& pair, const Alignment& alignment) {
+  return alignment * pair.T_map_body.translation() - pair.T_world_body.translation();
+}
+
 }  // namespace
 
 std::vector<double> position_errors(
@@ -58,10 +62,18 @@ std::vector<double> position_errors(
   std::vector<double> errors;
   errors.reserve(pairs.size());
   for (const PosePair& pair : pairs) {
-    errors.push_back(
-        (alignment * pair.T_map_body.translation() - pair.T_world_body.translation()).norm());
+    errors.push_back(position_offset(pair, alignment).norm());
   }
   return errors;
+}
+
+std::array<double, 3> axis_rmse(const std::vector<PosePair>& pairs, const Alignment& alignment) {
+  Eigen::Array3d sq_sum = Eigen::Array3d::Zero();
+  for (const PosePair& pair : pairs) {
+    sq_sum += position_offset(pair, alignment).array().square();
+  }
+  const Eigen::Array3d rmse = (sq_sum / static_cast<double>(pairs.size())).sqrt();
+  return {rmse.x(), rmse.y(), rmse.z()};
 }
 
 RelativeError relative_error(const std::vector<PosePair>& pairs, StepUnit unit) {

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The nvm authors
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -16,6 +17,9 @@ namespace nvm::eval {
 /// Distance [m] of each aligned estimated position to the true one, in the order of `pairs`: the
 /// absolute trajectory error (spec §6) before it is summarised.
 std::vector<double> position_errors(const std::vector<PosePair>& pairs, const Alignment& alignment);
+
+/// Root mean square of what those distances are made of along x, y and z of the world [m].
+std::array<double, 3> axis_rmse(const std::vector<PosePair>& pairs, const Alignment& alignment);
 
 /// Over which step of the motion a relative error is taken.
 enum class StepUnit { kFrame, kSecond, kMetre };

@@ -230,6 +230,7 @@ TEST_F(EvaluationOfRuns, AreReportedSideBySide) {
   ASSERT_EQ(json["runs"].size(), 3U);
   EXPECT_NEAR(json["runs"][0]["map"]["walls"][0]["error_mm"].get<double>(), 0.0, 1.5);
   EXPECT_LT(json["runs"][0]["trajectory"]["ate_m"]["rmse"].get<double>(), 1e-6);
+  EXPECT_EQ(json["runs"][0]["trajectory"]["axis_rmse_m"].size(), 3U);
   EXPECT_EQ(json["runs"][1]["map"]["sides"], "by position");
   EXPECT_TRUE(json["runs"][1]["map"]["walls"][0]["side_purity"].is_null());
   EXPECT_TRUE(json["runs"][2]["map"]["walls"][0]["thickness_mm"].is_null());

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -135,6 +136,23 @@ TEST(Alignment, FindsAnyRigidTransformAndScale) {
     EXPECT_LT(summarize(position_errors(pairs, sim3))->max, 1e-9);
     EXPECT_GT(summarize(position_errors(pairs, align(pairs, AlignmentKind::kSe3)))->rmse, 0.1);
   }
+}
+
+/// What the alignment cannot take away stays on its axis, and the axes add up to the whole.
+TEST(AxisRmse, SplitsTheErrorOfPositions) {
+  const Trajectory truth = loop(0.0, 40.0, 10.0);
+  Trajectory bent = truth;
+  for (std::size_t i = 0; i < bent.size(); ++i) {
+    bent[i].pose.translation().z() += i % 2 == 0 ? 0.03 : -0.03;
+  }
+  const auto pairs = associate(bent, truth).pairs;
+  const Alignment alignment = align(pairs, AlignmentKind::kSe3);
+  const std::array<double, 3> axes = axis_rmse(pairs, alignment);
+  EXPECT_LT(axes[0], 1e-3);
+  EXPECT_LT(axes[1], 1e-3);
+  EXPECT_NEAR(axes[2], 0.03, 1e-3);
+  const double whole = summarize(position_errors(pairs, alignment))->rmse;
+  EXPECT_NEAR(std::hypot(axes[0], axes[1], axes[2]), whole, 1e-12);
 }
 
 TEST(Alignment, IsRefusedWhereThePositionsLeaveItOpen) {
