@@ -56,7 +56,9 @@ HARDSHIPS = {
     "late": ["imu.clock_offset=0.01", "imu.clock_jitter=0.0005"],
     "slow_imu": ["imu.rate=100"],
     "fast_imu": ["imu.rate=1000"],
-    "robot": ["motion.height=0.3", "motion.clearance=0.1"],
+    # A level sensor sees little of floor and ceiling.
+    "level": ["motion.tilt_deg=0"],
+    "robot": ["motion.height=0.3", "motion.clearance=0.1", "motion.tilt_deg=0", "motion.gait=0.1", "motion.wander=0.1"],
     "overhead": ["motion.height=1.8", "motion.clearance=0.1"],
 }
 SETTINGS.update({name: (options, []) for name, options in HARDSHIPS.items()})
@@ -100,11 +102,16 @@ def assignments(options: list) -> list:
     return [word for option in options for word in ("--set", option)]
 
 
-def call(command: list) -> None:
-    """Runs a command; its last line of errors becomes the exception when it fails."""
+def complaint(command: list) -> str:
+    """Runs a command; the last line of its errors when it fails, else nothing."""
     done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        raise RuntimeError((done.stderr.strip() or "no message").splitlines()[-1])
+    return (done.stderr.strip() or "no message").splitlines()[-1] if done.returncode != 0 else ""
+
+
+def call(command: list) -> None:
+    """Runs a command that must not fail."""
+    if failure := complaint(command):
+        raise RuntimeError(failure)
 
 
 def measure(arguments, sequence: Sequence, pipeline: str, map_name: str) -> str:
@@ -120,7 +127,7 @@ def measure(arguments, sequence: Sequence, pipeline: str, map_name: str) -> str:
         try:
             row.update(run_and_score(arguments, sequence, folder, pipeline, map_name))
         except RuntimeError as failure:
-            row["failure"] = str(failure)
+            row["failure"] = str(failure).replace(str(folder), "run")
         (folder / "row.json").write_text(json.dumps(row, indent=1) + "\n")
     row = json.loads((folder / "row.json").read_text())
     return f"{label}: " + (row.get("failure") or f"ATE {row['ate_mm']:.2f} mm, {row['ms_per_scan']['total']:.1f} ms")
@@ -129,10 +136,13 @@ def measure(arguments, sequence: Sequence, pipeline: str, map_name: str) -> str:
 def run_and_score(arguments, sequence: Sequence, folder: Path, pipeline: str, map_name: str) -> dict:
     options = [*PIPELINES[pipeline], "threads=1", *SETTINGS[sequence.setting][1], *MAPS[map_name]]
     truth = sequence.folder(arguments.out)
-    call([arguments.program, "run", truth, "--out", folder, *assignments(options)])
+    verdict = complaint([arguments.program, "run", truth, "--out", folder, *assignments(options)])
+    if not (folder / "trajectory.tum").exists():
+        raise RuntimeError(verdict or "no trajectory")
     call([arguments.program, "evaluate", folder, "--truth", truth, "--out", folder / "evaluation"])
     (folder / "map.nvm").unlink(missing_ok=True)
-    return figures(json.loads((folder / "evaluation" / "evaluation.json").read_text())["runs"][0])
+    evaluation = json.loads((folder / "evaluation" / "evaluation.json").read_text())
+    return {"verdict": verdict.replace(str(folder), "run"), **figures(evaluation["runs"][0])}
 
 
 def figures(run: dict) -> dict:
@@ -141,6 +151,7 @@ def figures(run: dict) -> dict:
     return {
         "ate_mm": 1e3 * run["trajectory"]["ate_m"]["rmse"],
         "z_rmse_mm": 1e3 * run["trajectory"]["axis_rmse_m"][2],
+        "judged": run["trajectory"]["seconds"] / run["trajectory"]["truth_seconds"],
         "poses": run["trajectory"]["poses"],
         "thickness_worst_mm": errors.get("max"),
         "thickness_mean_mm": errors.get("mean"),

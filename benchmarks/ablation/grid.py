@@ -9,19 +9,24 @@ from report import SENSOR_NAMES, by_value, over_seeds, table, text
 WORST = 10  # cells that are listed
 
 
+def is_lost(row: dict) -> bool:
+    """No trajectory, or none of a tenth of the way."""
+    return "failure" in row or row["judged"] < 0.9
+
+
 def by_ate(row: dict) -> float:
-    """Runs without a trajectory are worst of all."""
-    return float("inf") if "failure" in row else row["ate_mm"]
+    """Runs that were lost are worst of all."""
+    return float("inf") if is_lost(row) else row["ate_mm"]
 
 
 def cell(rows: list) -> str:
-    """ATE, and z in brackets; the worst seed."""
+    """ATE, and z in brackets; the worst seed. A star where nvm run itself called the run unusable."""
     if not rows:
         return "–"
-    if any("failure" in row for row in rows):
+    if any(is_lost(row) for row in rows):
         return "lost"
     worst = max(rows, key=by_ate)
-    return f"{text(worst['ate_mm'])} ({text(worst['z_rmse_mm'])})"
+    return f"{text(worst['ate_mm'])} ({text(worst['z_rmse_mm'])})" + ("*" if worst["verdict"] else "")
 
 
 def grade_table(rows: list, sensor: str) -> dict:
@@ -43,9 +48,9 @@ def summary_table(rows: list) -> dict:
     for sensor, group in by_value(rows, "sensor", GRID_SENSORS).items():
         figures = [(key, combine) for key in ("ate_mm", "z_rmse_mm") for combine in (median, max)]
         figures += [("thickness_mean_mm", median), ("thickness_worst_mm", max)]
-        found = [row for row in group if "failure" not in row]
+        found = [row for row in group if not is_lost(row)]
         body.append([sensor, str(len(group)), str(len(group) - len(found))]
-                    + [text(over_seeds(group, lambda row, k=key: row[k], combine)) for key, combine in figures]
+                    + [text(over_seeds(found, lambda row, k=key: row[k], combine)) for key, combine in figures]
                     + [f"{sum(row['walls_missing'] for row in found)} of {sum(row['walls_seen'] for row in found)}"])
     return table("Grid: summary per sensor [mm]", head, body)
 
@@ -54,10 +59,10 @@ def worst_table(rows: list) -> dict:
     body = []
     for row in sorted(rows, key=by_ate, reverse=True)[:WORST]:
         place = [row["scene"], row["sensor"], f"x {row['imu_grade']:g}", row["setting"], str(row["seed"])]
-        if "failure" in row:
+        if is_lost(row):
             body.append(place + ["lost", "–", "–", "–"])
         else:
-            body.append(place + [text(row["ate_mm"]), text(row["z_rmse_mm"]), text(row["thickness_worst_mm"]),
+            body.append(place + [text(row["ate_mm"]) + ("*" if row["verdict"] else ""), text(row["z_rmse_mm"]), text(row["thickness_worst_mm"]),
                                  f"{row['walls_missing']} of {row['walls_seen']}"])
     head = ["scene", "sensor", "IMU", "setting", "seed", "ATE", "z", "worst wall", "walls missing"]
     return table(f"Grid: the worst {len(body)} of {len(rows)} cells [mm]", head, body)
