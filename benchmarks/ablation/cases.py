@@ -142,7 +142,8 @@ def run_and_score(arguments, sequence: Sequence, folder: Path, pipeline: str, ma
     call([arguments.program, "evaluate", folder, "--truth", truth, "--out", folder / "evaluation"])
     (folder / "map.nvm").unlink(missing_ok=True)
     evaluation = json.loads((folder / "evaluation" / "evaluation.json").read_text())
-    return {"verdict": verdict.replace(str(folder), "run"), **figures(evaluation["runs"][0])}
+    scans = json.loads((truth / "meta.json").read_text())["counts"]["scans"]
+    return {"verdict": verdict.replace(str(folder), "run"), "scans": scans, **figures(evaluation["runs"][0])}
 
 
 def figures(run: dict) -> dict:
@@ -151,7 +152,6 @@ def figures(run: dict) -> dict:
     return {
         "ate_mm": 1e3 * run["trajectory"]["ate_m"]["rmse"],
         "z_rmse_mm": 1e3 * run["trajectory"]["axis_rmse_m"][2],
-        "judged": run["trajectory"]["seconds"] / run["trajectory"]["truth_seconds"],
         "poses": run["trajectory"]["poses"],
         "thickness_worst_mm": errors.get("max"),
         "thickness_mean_mm": errors.get("mean"),

@@ -10,8 +10,8 @@ WORST = 10  # cells that are listed
 
 
 def is_lost(row: dict) -> bool:
-    """No trajectory, or none of a tenth of the way."""
-    return "failure" in row or row["judged"] < 0.9
+    """No trajectory, or no pose of a tenth of the scans."""
+    return "failure" in row or row["poses"] < 0.9 * row["scans"]
 
 
 def by_ate(row: dict) -> float:
