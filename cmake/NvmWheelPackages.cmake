@@ -28,7 +28,15 @@ print(found.locate().resolve().parent)"
 endfunction()
 
 nvm_use_wheel_package(cmeel-eigen "Eigen3Config.cmake")
+nvm_use_wheel_package(cmeel-yaml-cpp "yaml-cpp-config.cmake")
 nvm_use_wheel_package(tbb-devel "TBBConfig.cmake")
+
+# Debian's yaml-cpp 0.7 has the short name only, 0.8 the long one.
+find_package(yaml-cpp REQUIRED)
+if(NOT TARGET yaml-cpp)
+  add_library(yaml-cpp INTERFACE IMPORTED)
+  target_link_libraries(yaml-cpp INTERFACE yaml-cpp::yaml-cpp)
+endif()
 
 execute_process(
   COMMAND ${Python_EXECUTABLE} -m nanobind --cmake_dir

@@ -9,10 +9,12 @@ files.
 
 from ._nvm import (
     AlignResult,
+    FrameResult,
     InsertStats,
     MapStats,
     NormalEstimator,
     NormalResult,
+    Odometry,
     ScanAligner,
     VoxelMap,
     __version__,
@@ -20,17 +22,22 @@ from ._nvm import (
     load,
     view_directions,
 )
+from .commands import evaluate, simulate
 
 __all__ = [
     "AlignResult",
+    "FrameResult",
     "InsertStats",
     "MapStats",
     "NormalEstimator",
     "NormalResult",
+    "Odometry",
     "ScanAligner",
     "VoxelMap",
     "__version__",
     "estimate_normals",
+    "evaluate",
     "load",
+    "simulate",
     "view_directions",
 ]

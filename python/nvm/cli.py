@@ -30,10 +30,61 @@ def info(arguments) -> None:
 PROGRAM_COMMANDS = {
     "run": "estimate the trajectory and the two-sided map of a recording",
     "map": "build a two-sided map from scans at known poses",
+    "walls": "list the walls of a map",
     "export": "write a saved map as points with normals and sides",
     "simulate": "simulate a LiDAR and an IMU in a scene",
     "evaluate": "compare trajectories and maps of runs with the truth",
 }
+
+
+def view(arguments) -> None:
+    """Shows finished results."""
+    from .results import read_results
+    from .viewer import RunLog, open_stream
+
+    results = read_results(arguments.path)
+    RunLog(open_stream(arguments.record)).results(results)
+
+
+def plot(arguments) -> None:
+    """Writes pictures of finished results."""
+    try:
+        from .plots import write_plots
+    except ImportError as error:
+        raise RuntimeError("pictures take matplotlib: pip install matplotlib") from error
+    from .results import read_results, read_trajectory
+
+    results = read_results(arguments.path)
+    truth = read_trajectory(arguments.truth) if arguments.truth else None
+    beside = results.path if results.path.is_dir() else results.path.parent
+    for path in write_plots(results, arguments.out or beside / "plots", truth):
+        print(path)
+
+
+def run_watched(argv: list[str]) -> int:
+    """Runs the program; with --view or --record what it does goes to rerun meanwhile."""
+    from .program import run_program
+
+    top = argparse.ArgumentParser(add_help=False, allow_abbrev=False)
+    top.add_argument("--view", action="store_true")
+    top.add_argument("--record")
+    watching, rest = top.parse_known_args(argv)
+    if "--help" in rest:
+        code = run_program(rest)
+        print("  --view                      Show the run in rerun while it goes on")
+        print("  --record FILE               Keep that in an .rrd file instead")
+        return code
+    if not (watching.view or watching.record):
+        return run_program(rest)
+    folder_parser = argparse.ArgumentParser(add_help=False, allow_abbrev=False)
+    folder_parser.add_argument("--out")
+    folder = folder_parser.parse_known_args(rest)[0].out
+    if folder is None:
+        return run_program(rest)  # which says that it needs one
+    from .viewer import RunFollower, open_stream
+
+    with RunFollower(folder, open_stream(watching.record)):
+        return run_program(rest)
 
 
 def parser() -> argparse.ArgumentParser:
@@ -43,6 +94,15 @@ def parser() -> argparse.ArgumentParser:
     command = commands.add_parser("info", help="say what a recording or a saved map holds")
     command.add_argument("path", help="a bag of ROS 1 or ROS 2, or a map.nvm file")
     command.set_defaults(run=info)
+    command = commands.add_parser("view", help="show the results of a run in rerun")
+    command.add_argument("path", help="a folder of nvm run or nvm map, a map.nvm or a TUM file")
+    command.add_argument("--record", metavar="FILE", help="write an .rrd file instead")
+    command.set_defaults(run=view)
+    command = commands.add_parser("plot", help="draw the results of a run")
+    command.add_argument("path", help="as for view")
+    command.add_argument("--out", metavar="FOLDER", help="of the pictures; default: plots beside them")
+    command.add_argument("--truth", metavar="FILE", help="TUM file, for the errors")
+    command.set_defaults(run=plot)
     for name, text in PROGRAM_COMMANDS.items():  # main() hands them over, with all their options
         commands.add_parser(name, help=text, add_help=False)
     return top
@@ -55,7 +115,7 @@ def main(argv: list[str] | None = None) -> int:
         if argv and argv[0] in PROGRAM_COMMANDS:
             from .program import run_program
 
-            return run_program(argv)
+            return run_watched(argv) if argv[0] == "run" else run_program(argv)
         arguments = parser().parse_args(argv)
         arguments.run(arguments)
     except (BagError, ValueError, RuntimeError, OSError) as error:

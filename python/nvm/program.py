@@ -26,21 +26,33 @@ PIPE_SIZE = 1 << 20  # [bytes]
 
 
 def find_program() -> str:
-    """The program: the one that $NVM_PROGRAM names, or that lies in the package.
+    """The program: the one that $NVM_PROGRAM names, that lies in the package, or that is on the PATH,
+    where this command of the same name may come first.
 
     Raises
     ------
     RuntimeError
         When there is none.
     """
-    installed = pathlib.Path(__file__).parent / "bin" / "nvm"
-    named = os.environ.get("NVM_PROGRAM")
-    if named or installed.is_file():
-        return named or str(installed)
+    if named := os.environ.get("NVM_PROGRAM"):
+        return named
+    places = [pathlib.Path(__file__).parent / "bin", *map(pathlib.Path, os.get_exec_path())]
+    for program in (place / "nvm" for place in places):
+        if is_compiled(program):
+            return str(program)
     raise RuntimeError(
-        "this package came without the C++ program: build it (scripts/demo.sh makes "
-        "build/release/bin/nvm) and let NVM_PROGRAM name it"
+        "this needs the C++ program, which pip does not bring: install nvm-tools, or build it (scripts/demo.sh "
+        "makes build/release/bin/nvm) and let NVM_PROGRAM name it; nvm.Odometry works without"
     )
+
+
+def is_compiled(path: pathlib.Path) -> bool:
+    """Whether a file is a program for the processor, not a script such as pip makes."""
+    try:
+        with open(path, "rb") as file:
+            return file.read(4) in (b"\x7fELF", b"\xcf\xfa\xed\xfe") and os.access(path, os.X_OK)
+    except OSError:
+        return False
 
 
 def run_program(arguments: list[str]) -> int:

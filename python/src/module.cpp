@@ -15,4 +15,5 @@ NB_MODULE(_nvm, module) {
   nvm::python::bind_voxel_map(module);
   nvm::python::bind_normals(module);
   nvm::python::bind_registration(module);
+  nvm::python::bind_odometry(module);
 }

@@ -5,9 +5,11 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/string.h>
 
+#include <sstream>
 #include <string>
 #include <type_traits>
 
+#include "nvm/map/map_options.hpp"
 #include "option_lists.hpp"
 
 namespace nvm::python {
@@ -46,6 +48,21 @@ std::string allowed(const Choices& choices) {
   return text;
 }
 
+/// " [m], 0.01 to 100.", or which names there are.
+template <class Value>
+std::string limits(const OptionInfo& info, const Value& /*value*/) {
+  std::ostringstream text;
+  text << (*info.unit != '\0' ? std::string(" [") + info.unit + "]" : "");
+  if (info.min < info.max && !std::is_same_v<Value, bool>) {
+    text << ", " << info.min << " to " << info.max << ".";
+  }
+  return text.str();
+}
+template <class Enum, class Choices>
+std::string limits(const OptionInfo& /*info*/, const Enum& /*value*/, const Choices& choices) {
+  return ": " + allowed(choices) + ".";
+}
+
 template <class Value>
 nb::object to_python(const Value& value) {
   return nb::cast(value);
@@ -68,7 +85,7 @@ template <class Options>
 Options options_from(const nb::kwargs& keywords) {
   Options options;
   std::size_t known = 0;
-  visit_options(options, [&](const OptionText& text, auto& value, const auto&... choices) {
+  visit_options(options, [&](const OptionInfo& text, auto& value, const auto&... choices) {
     if (!keywords.contains(text.name)) {
       return;
     }
@@ -83,7 +100,7 @@ Options options_from(const nb::kwargs& keywords) {
   });
   if (known != keywords.size()) {
     std::string message = "nvm: unknown option; there are:";
-    visit_options(options, [&](const OptionText& text, auto&, const auto&...) {
+    visit_options(options, [&](const OptionInfo& text, auto&, const auto&...) {
       message += std::string(" ") + text.name;
     });
     throw nb::type_error(message.c_str());
@@ -95,7 +112,7 @@ Options options_from(const nb::kwargs& keywords) {
 template <class Options>
 nb::dict to_dict(Options options) {
   nb::dict dict;
-  visit_options(options, [&](const OptionText& text, const auto& value, const auto&... choices) {
+  visit_options(options, [&](const OptionInfo& text, const auto& value, const auto&... choices) {
     dict[text.name] = detail::to_python(value, choices...);
   });
   return dict;
@@ -107,9 +124,10 @@ template <class Options>
 const char* documented(const std::string& head) {
   std::string text = head + "\n\nParameters\n----------\n";
   Options options;
-  visit_options(options, [&](const OptionText& option, const auto& value, const auto&... choices) {
+  visit_options(options, [&](const OptionInfo& option, const auto& value, const auto&... choices) {
     text += std::string(option.name) + " : default " +
-            nb::repr(detail::to_python(value, choices...)).c_str() + "\n    " + option.doc + "\n";
+            nb::repr(detail::to_python(value, choices...)).c_str() + "\n    " + option.doc +
+            detail::limits(option, value, choices...) + "\n";
   });
   return (new std::string(text))->c_str();
 }

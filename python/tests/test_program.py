@@ -15,7 +15,7 @@ pytest.importorskip("rosbags")
 from recordings import CLOUD, FORMATS, IMU, LIVOX, LIVOX_POINT, TF, records, write
 from support import box_room
 
-from nvm.program import find_program
+from nvm.program import find_program, is_compiled
 
 try:
     PROGRAM = find_program()
@@ -154,3 +154,19 @@ def test_without_the_program_it_says_what_to_install(tmp_path):
     done = nvm("run", tmp_path, NVM_PROGRAM=str(tmp_path / "none"))
     assert done.returncode == 1 and "none" in done.stderr and "Traceback" not in done.stderr
     assert shutil.which(PROGRAM) or pathlib.Path(PROGRAM).is_file()
+
+
+def test_finds_the_program_on_the_path_behind_scripts_of_its_name(tmp_path, monkeypatch):
+    monkeypatch.delenv("NVM_PROGRAM", raising=False)
+    script, compiled = tmp_path / "a" / "nvm", tmp_path / "b" / "nvm"
+    for path in (script, compiled):
+        path.parent.mkdir()
+    script.write_text("#!/usr/bin/env python3\n")
+    script.chmod(0o755)
+    shutil.copy(PROGRAM, compiled)
+    monkeypatch.setenv("PATH", f"{script.parent}{os.pathsep}{compiled.parent}")
+    assert find_program() == str(compiled)
+    assert not is_compiled(script)
+    monkeypatch.setenv("PATH", str(script.parent))
+    with pytest.raises(RuntimeError, match="nvm-tools"):
+        find_program()

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#if __has_include(<nanoflann.hpp>)
 #include "nvm/map/kd_tree_map.hpp"
+#define NVM_HAS_KD_TREE_MAP
+#endif
 
 namespace nvm::lio {
 
@@ -127,6 +130,7 @@ class RejectLioMap final : public VoxelLioMap {
   float min_cosine_;
 };
 
+#ifdef NVM_HAS_KD_TREE_MAP
 class KdTreeLioMap final : public LioMap {
  public:
   explicit KdTreeLioMap(const MapOptions& options) : map_(options.min_point_distance) {}
@@ -166,6 +170,7 @@ class KdTreeLioMap final : public LioMap {
   KdTreeMap map_;
   Points kept_;
 };
+#endif
 
 }  // namespace
 
@@ -180,7 +185,12 @@ std::unique_ptr<LioMap> make_map(MapType type, const MapOptions& options) {
     case MapType::kReject:
       return std::make_unique<RejectLioMap>(options);
     case MapType::kKdTree:
+#ifdef NVM_HAS_KD_TREE_MAP
       return std::make_unique<KdTreeLioMap>(options);
+#else
+      throw std::invalid_argument(
+          "nvm: map.type = kdtree needs nanoflann, which was not there when nvm was built");
+#endif
   }
   throw std::invalid_argument("nvm: unknown map type");
 }

@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: MIT
+# Copyright (c) 2026 The nvm authors
+"""What ``nvm run`` and ``nvm map`` leave in a folder, as arrays."""
+
+from __future__ import annotations
+
+import csv
+import dataclasses
+import pathlib
+
+import numpy as np
+
+from . import load
+
+
+class ResultError(RuntimeError):
+    """A folder or file that holds no results, and what is wrong with it."""
+
+
+@dataclasses.dataclass
+class Trajectory:
+    """Poses T_map_body: times (N,) [s], positions (N, 3) [m], quaternions (N, 4) as x y z w."""
+
+    times: np.ndarray
+    positions: np.ndarray
+    quaternions: np.ndarray
+
+
+@dataclasses.dataclass
+class Cloud:
+    """Points of a map: positions (N, 3) [m], normals (N, 3), sides (N,) with 0 front and 1 back."""
+
+    positions: np.ndarray
+    normals: np.ndarray
+    sides: np.ndarray
+
+
+@dataclasses.dataclass
+class Results:
+    """The parts that a folder has; `frames` has a column of frames.csv under each name."""
+
+    path: pathlib.Path
+    trajectory: Trajectory | None = None
+    frames: dict | None = None
+    cloud: Cloud | None = None
+
+
+def read_trajectory(path) -> Trajectory:
+    """Reads a TUM file: t x y z qx qy qz qw."""
+    try:
+        rows = np.loadtxt(path, ndmin=2)
+    except ValueError as error:
+        raise ResultError(f"{path}: is no TUM file: {error}") from error
+    if rows.size == 0 or rows.shape[1] != 8:
+        raise ResultError(f"{path}: is no TUM file: it needs 8 numbers a line")
+    return Trajectory(rows[:, 0], rows[:, 1:4], rows[:, 4:])
+
+
+def read_cloud(path) -> Cloud:
+    """Reads a map.nvm, where map_origin.txt beside it says that it lies."""
+    path = pathlib.Path(path)
+    voxel_map = load(path)
+    origin_file = path.parent / "map_origin.txt"
+    origin = np.loadtxt(origin_file) if origin_file.is_file() else np.zeros(3)
+    return Cloud(voxel_map.points + origin, voxel_map.normals, voxel_map.sides)
+
+
+def read_frames(path) -> dict:
+    """Reads a frames.csv: numbers as float arrays, the columns `status` and `why` as lists."""
+    with open(path, newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    names = rows[0].keys() if rows else ()
+    columns = {name: [row[name] for row in rows] for name in names}
+    texts = ("status", "why")
+    return {k: v if k in texts else np.array(v, dtype=float) for k, v in columns.items()}
+
+
+def read_results(path) -> Results:
+    """Reads a folder of results, a saved map or a TUM file."""
+    path = pathlib.Path(path)
+    if path.is_file():
+        if path.suffix == ".nvm":
+            return Results(path, cloud=read_cloud(path))
+        return Results(path, trajectory=read_trajectory(path))
+    results = Results(path)
+    readers = {
+        "trajectory": ("trajectory.tum", read_trajectory),
+        "frames": ("frames.csv", read_frames),
+        "cloud": ("map.nvm", read_cloud),
+    }
+    for part, (name, read) in readers.items():
+        if (path / name).is_file():
+            setattr(results, part, read(path / name))
+    if results.trajectory is None and results.cloud is None:
+        raise ResultError(f"{path}: has neither trajectory.tum nor map.nvm: give a folder of nvm run")
+    return results

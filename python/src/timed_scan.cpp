@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include "timed_scan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "arrays.hpp"
+
+namespace nvm::python {
+
+namespace {
+
+/// Throws ValueError for times that lost their digits: float32 tells 2026 to two minutes.
+void require_fine(const Numbers& times) {
+  constexpr double kMaxSingle = 1e4;  // [s]; float32 steps by 1 ms there
+  for (std::size_t i = 0; !times.is_double() && i < times.size(); ++i) {
+    if (std::abs(times[i]) > kMaxSingle) {
+      throw std::invalid_argument(
+          "nvm: times above 10000 s in float32 are too coarse: give float64, or times since begin");
+    }
+  }
+}
+
+double finite_number(nb::handle object, const char* name) {
+  double number = 0.0;
+  if (!nb::try_cast<double>(object, number) || !std::isfinite(number)) {
+    throw std::invalid_argument(std::string("nvm: ") + name + " must be a finite number [s]");
+  }
+  return number;
+}
+
+/// Positions and finite times of the finite points, by ascending time.
+std::vector<std::pair<double, Eigen::Vector3d>> finite_points(
+    const Vectors& points, const Numbers& times) {
+  std::vector<std::pair<double, Eigen::Vector3d>> finite;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector3d point = points[i];
+    if (point.allFinite() && std::isfinite(times[i])) {
+      finite.emplace_back(times[i], point);
+    }
+  }
+  std::stable_sort(
+      finite.begin(), finite.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  return finite;
+}
+
+lio::TimedPoint timed_point(const Eigen::Vector3d& position, double dt) {
+  lio::TimedPoint point;
+  point.x = static_cast<float>(position.x());
+  point.y = static_cast<float>(position.y());
+  point.z = static_cast<float>(position.z());
+  point.dt = static_cast<float>(dt);
+  return point;
+}
+
+/// An array of as many times as there are points, of a number or an array.
+nb::object expanded(nb::handle times, const Vectors& points) {
+  const nb::module_ numpy = nb::module_::import_("numpy");
+  const nb::object array = numpy.attr("asarray")(times);
+  if (nb::cast<int>(array.attr("ndim")) != 0) {
+    return array;
+  }
+  return numpy.attr("full")(points.size(), finite_number(times, "times"));
+}
+
+/// As a batch: the rows of `object`, or itself as the only one.
+nb::object rows_of(nb::handle object, bool is_single) {
+  const nb::object array = nb::module_::import_("numpy").attr("asarray")(object);
+  return is_single ? nb::object(array.attr("reshape")(1, -1)) : array;
+}
+
+}  // namespace
+
+lio::Scan timed_scan(nb::handle points, nb::handle times, nb::handle begin, nb::handle end) {
+  const Vectors positions(points, "points");
+  const Numbers stamps(expanded(times, positions), "times");
+  require_same_size(stamps.size(), "times", positions.size(), "points");
+  const auto finite = finite_points(positions, stamps);
+  const double first = finite.empty() ? 0.0 : finite.front().first;
+  const double last = finite.empty() ? 0.0 : finite.back().first;
+  lio::Scan scan;
+  double origin = 0.0;  // of the times, to make them count from t_begin
+  if (begin.is_none()) {
+    require_fine(stamps);
+    scan.t_begin = origin = first;
+    scan.t_end = last;
+  } else {
+    scan.t_begin = finite_number(begin, "begin");
+    scan.t_end = scan.t_begin + last;
+  }
+  if (!end.is_none()) {
+    scan.t_end = finite_number(end, "end");
+  }
+  constexpr double kRounding = 1e-5;  // [s]
+  if (first - origin < 0.0 || scan.t_begin + (last - origin) > scan.t_end + kRounding) {
+    throw std::invalid_argument("nvm: times must lie from begin to end");
+  }
+  scan.points.reserve(finite.size());
+  for (const auto& [time, position] : finite) {
+    scan.points.push_back(timed_point(position, time - origin));
+  }
+  return scan;
+}
+
+std::vector<lio::ImuSample> imu_samples(nb::handle times, nb::handle gyro, nb::handle accel) {
+  const nb::object array = nb::module_::import_("numpy").attr("asarray")(times);
+  const bool is_single = nb::cast<int>(array.attr("ndim")) == 0;
+  const Numbers stamps(is_single ? nb::object(array.attr("reshape")(1)) : array, "times");
+  const Vectors rates(rows_of(gyro, is_single), "gyro");
+  const Vectors forces(rows_of(accel, is_single), "accel");
+  require_same_size(rates.size(), "gyro", stamps.size(), "times");
+  require_same_size(forces.size(), "accel", stamps.size(), "times");
+  require_fine(stamps);
+  std::vector<lio::ImuSample> samples;
+  for (std::size_t i = 0; i < stamps.size(); ++i) {
+    const lio::ImuSample sample{stamps[i], rates[i], forces[i]};
+    if (!std::isfinite(sample.time) || !sample.gyro.allFinite() || !sample.accel.allFinite()) {
+      throw std::invalid_argument(
+          "nvm: row " + std::to_string(i) + " of the IMU readings is not finite: leave it out");
+    }
+    samples.push_back(sample);
+  }
+  return samples;
+}
+
+}  // namespace nvm::python
