@@ -47,18 +47,21 @@ void update(const PatchGrid& grid, Candidate& candidate) {
   candidate.box = box_of(grid, region, candidate.frame);
 }
 
-/// True when `small` lies on the plane of `large`: one plane fits both as well as one each.
-bool lies_on(const Candidate& large, const Candidate& small, double noise) {
-  const double max_offset = 0.002 + noise;
-  const double max_misfit = 0.002 + noise;  // beyond what its own plane leaves
-  const eval::OrientedPlane& plane = large.region.plane;
-  if (plane.normal.dot(small.region.plane.normal) < kMinCosine ||
-      std::abs(plane.distance(small.mean)) > max_offset) {
-    return false;
+/// What tells most regions off a plane at once, close together in memory.
+struct Outlook {
+  Eigen::Vector3d normal;
+  Eigen::Vector3d mean;
+
+  bool may_lie_on(const eval::OrientedPlane& plane, double max_offset) const {
+    return plane.normal.dot(normal) >= kMinCosine && std::abs(plane.distance(mean)) <= max_offset;
   }
+};
+
+/// True when `small` lies on the plane of `large`: one plane fits both as well as one each.
+bool lies_on(const Candidate& large, const Candidate& small, double max_misfit) {
   PlaneSums both = large.region.sums;
   both += small.region.sums;
-  const auto joint = fit_plane(both, plane.normal);
+  const auto joint = fit_plane(both, large.region.plane.normal);
   const auto fits = [&](const PlanarRegion& region) {
     return rms_distance(region.sums, *joint) <
            std::hypot(rms_distance(region.sums, region.plane), max_misfit);
@@ -78,6 +81,11 @@ std::vector<PlanarRegion> join_coplanar(
     candidates[i].region = std::move(regions[i]);
     update(grid, candidates[i]);
   }
+  const double max_offset = 0.002 + limits.noise;
+  std::vector<Outlook> outlooks;
+  for (const Candidate& candidate : candidates) {
+    outlooks.push_back({candidate.region.plane.normal, candidate.mean});
+  }
   std::vector<PlanarRegion> joined;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     Candidate& large = candidates[i];
@@ -88,7 +96,8 @@ std::vector<PlanarRegion> join_coplanar(
       has_grown = false;
       for (std::size_t j = i + 1; j < candidates.size(); ++j) {
         Candidate& small = candidates[j];
-        if (!small.is_taken && lies_on(large, small, limits.noise) &&
+        if (outlooks[j].may_lie_on(large.region.plane, max_offset) && !small.is_taken &&
+            lies_on(large, small, max_offset) &&
             large.box.gap(box_in(large.frame, small.frame, small.box)) <= limits.max_gap) {
           small.is_taken = true;
           large.region.sums += small.region.sums;

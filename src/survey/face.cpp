@@ -19,21 +19,21 @@ std::vector<std::uint32_t> points_of(const PatchGrid& grid, const PlanarRegion& 
       points.push_back(grid.order()[i]);
     }
   }
-  std::sort(points.begin(), points.end());
   return points;
 }
 
-/// Four robust standard deviations of the points' distances to `plane`, at least 5 mm.
+/// Four robust standard deviations of the points' distances to `plane`, at least 5 mm; from at most
+/// 4000 points at even steps.
 double gate_of(
     const SurveyCloud& cloud,
     const std::vector<std::uint32_t>& points,
     const eval::OrientedPlane& plane) {
   constexpr double kDeviationPerMedian = 1.4826;
   constexpr double kMinGate = 0.005;
+  const std::size_t step = 1 + points.size() / 4000;
   std::vector<double> distances;
-  distances.reserve(points.size());
-  for (const std::uint32_t i : points) {
-    distances.push_back(std::abs(plane.distance(cloud.positions[i])));
+  for (std::size_t i = 0; i < points.size(); i += step) {
+    distances.push_back(std::abs(plane.distance(cloud.positions[points[i]])));
   }
   const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
   std::nth_element(distances.begin(), middle, distances.end());

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <optional>
+#include <utility>
 
 namespace nvm::survey {
 
@@ -103,14 +103,15 @@ class Grower {
 }  // namespace
 
 std::vector<PlanarRegion> grow_regions(const PatchGrid& grid, const GrowthGates& gates) {
-  std::vector<std::uint32_t> seeds(grid.patches().size());
-  std::iota(seeds.begin(), seeds.end(), 0U);
-  std::stable_sort(seeds.begin(), seeds.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return grid.patches()[a].sums.count > grid.patches()[b].sums.count;
-  });
+  std::vector<std::pair<std::int64_t, std::uint32_t>> seeds;  // most points first
+  for (std::uint32_t i = 0; i < grid.patches().size(); ++i) {
+    const Patch& patch = grid.patches()[i];
+    seeds.emplace_back(-static_cast<std::int64_t>(patch.end - patch.begin), i);
+  }
+  std::sort(seeds.begin(), seeds.end());
   Grower grower(grid, gates);
   std::vector<PlanarRegion> regions;
-  for (const std::uint32_t seed : seeds) {
+  for (const auto& [count, seed] : seeds) {
     if (auto region = grower.grow(seed)) {
       regions.push_back(std::move(*region));
     }

@@ -25,12 +25,16 @@ std::vector<std::size_t> owners(const PatchGrid& grid, const std::vector<PlanarR
   return owner;
 }
 
-/// How many patches of region `index` have one of each other region beside them.
-std::map<std::size_t, std::size_t> count_neighbors(
+/// The share of the patches of `region`, of about 100 of them, that has one of each other region
+/// beside it.
+std::map<std::size_t, double> neighbor_shares(
     const PatchGrid& grid, const PlanarRegion& region, const std::vector<std::size_t>& owner) {
-  std::map<std::size_t, std::size_t> counts;
+  const std::size_t step = 1 + region.patches.size() / 100;
+  const double share = static_cast<double>(step) / static_cast<double>(region.patches.size());
+  std::map<std::size_t, double> shares;
   std::vector<std::size_t> beside;
-  for (const std::uint32_t patch : region.patches) {
+  for (std::size_t k = 0; k < region.patches.size(); k += step) {
+    const std::uint32_t patch = region.patches[k];
     beside.clear();
     grid.for_each_near(patch, [&](std::uint32_t i) {
       if (owner[i] != kNone && owner[i] != owner[patch]) {
@@ -40,10 +44,10 @@ std::map<std::size_t, std::size_t> count_neighbors(
     std::sort(beside.begin(), beside.end());
     beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
     for (const std::size_t other : beside) {
-      ++counts[other];
+      shares[other] += share;
     }
   }
-  return counts;
+  return shares;
 }
 
 }  // namespace
@@ -54,10 +58,9 @@ void drop_shadows(const PatchGrid& grid, double noise, std::vector<PlanarRegion>
   const double reach = std::max(0.02, 4.0 * noise);
   const std::vector<std::size_t> owner = owners(grid, regions);
   const auto is_shadow = [&](const PlanarRegion& region) {
-    for (const auto& [index, count] : count_neighbors(grid, region, owner)) {
+    for (const auto& [index, share] : neighbor_shares(grid, region, owner)) {
       const PlanarRegion& other = regions[index];
-      if (static_cast<double>(count) > kMinShare * static_cast<double>(region.patches.size()) &&
-          other.sums.count >= 2.0 * region.sums.count &&
+      if (share > kMinShare && other.sums.count >= 2.0 * region.sums.count &&
           other.plane.normal.dot(region.plane.normal) > kMinCosine &&
           std::abs(other.plane.distance(region.sums.mean())) < reach) {
         return true;
