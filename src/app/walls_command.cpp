@@ -49,6 +49,7 @@ void print_summary(const survey::Survey& found, const std::string& folder) {
 }
 
 void list_walls(const WallsArguments& arguments) {
+  arguments.options.validate();
   const io::MapCloud cloud =
       doing("loading " + arguments.map, [&] { return read_map(arguments.map); });
   const survey::Survey found = doing("looking for walls", [&] {

@@ -64,6 +64,9 @@ struct Cluster {
 
 SurveyCloud survey_cloud(const io::MapCloud& cloud) {
   constexpr float kMinLength = 0.5F;
+  if (cloud.positions.empty()) {
+    throw std::invalid_argument("has no points");
+  }
   SurveyCloud result;
   result.origin = middle_of(cloud.positions);
   result.positions.reserve(cloud.positions.size());

@@ -40,7 +40,8 @@ std::vector<Face> find_faces(
     const Directions& directions,
     const SurveyOptions& options) {
   const double noise = grid.noise();
-  const GrowthGates gates{std::clamp(4.0 * noise, 0.015, 0.1), std::clamp(4.0 * noise, 0.012, 0.1)};
+  const GrowthGates gates{
+      std::clamp(4.0 * noise, 0.015, 0.06), std::clamp(4.0 * noise, 0.012, 0.06)};
   constexpr double kCellsPerPatch = 2.5;
   std::vector<Face> faces;
   std::vector<PlanarRegion> regions =

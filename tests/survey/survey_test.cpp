@@ -263,6 +263,21 @@ TEST(Survey, BadPointsAreLeftOutAndCounted) {
   EXPECT_THAT(survey.walls, SizeIs(1));
 }
 
+TEST(Survey, ClutterIsNoWall) {
+  auto random = test::rng();
+  std::uniform_real_distribution<double> share(-2.0, 2.0);
+  std::normal_distribution<double> normal;
+  io::MapCloud cloud;
+  for (int i = 0; i < 5000; ++i) {
+    cloud.positions.emplace_back(share(random), share(random), share(random));
+    cloud.normals.push_back(
+        Eigen::Vector3d(normal(random), normal(random), normal(random)).normalized().cast<float>());
+  }
+  const Survey survey = survey_walls(cloud, {});
+  EXPECT_THAT(survey.walls, IsEmpty());
+  EXPECT_THAT(survey.bodies, IsEmpty());
+}
+
 TEST(Survey, WithoutNormalsOrWithBadOptionsItThrows) {
   io::MapCloud cloud;
   EXPECT_THROW(survey_walls(cloud, {}), std::invalid_argument);
