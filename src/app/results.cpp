@@ -93,6 +93,10 @@ void publish(
     const Eigen::Vector3d& origin,
     Ending& ending) {
   const std::string& folder = results.path();
+  if (map.is_frozen()) {
+    results.publish();
+    return;
+  }
   attempt({folder + "/map.ply", folder + "/map.nvm"}, ending, [&] {
     doing("writing the map", [&] {
       io::write_map_files(map, origin, folder);

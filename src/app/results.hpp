@@ -41,7 +41,8 @@ Ending use_scans(
 void attempt(
     const std::vector<std::string>& files, Ending& ending, const std::function<void()>& action);
 
-/// Writes the map, whose origin is at `origin` [m], to `results`, and publishes them. A map that
+/// Writes the map, whose origin is at `origin` [m], to `results` unless it is a prior one that has
+/// not changed, and publishes them. A map that
 /// cannot be written, or could not be loaded again, is left out: that becomes the error of
 /// `ending`. Throws std::runtime_error when nothing can be published.
 void publish(

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "app/doing.hpp"
+#include "app/prior_options.hpp"
 #include "app/results.hpp"
 #include "app/run_files.hpp"
 #include "app/run_options.hpp"
@@ -27,24 +28,28 @@ namespace {
 struct RunArguments {
   std::string input;
   std::string folder;
+  PriorArguments prior;
   RunOptionArguments options;
 };
 
-std::unique_ptr<lio::Pipeline> make_pipeline(RunOptions& options, const io::SequenceInfo& info) {
+std::unique_ptr<lio::Pipeline> make_pipeline(
+    const PriorArguments& prior, RunOptions& options, const io::SequenceInfo& info) {
   lio::PipelineOptions& pipeline = options.pipeline;
   pipeline.type = lio::resolve(pipeline.type, info.has_imu);
   pipeline.inertial.T_imu_lidar = lidar_extrinsic(options, info);
+  if (!prior.map.empty()) {
+    return make_prior_pipeline(prior, pipeline);
+  }
   return doing(making_map(pipeline.map), [&] { return lio::make_pipeline(pipeline); });
 }
 
-/// Runs `pipeline` on all scans. Each frame goes to the files and `summary` as it is finished.
+/// Runs `pipeline` on all scans. Each frame goes to `files` and `summary` as it is finished.
 Ending process(
     io::SequenceReader& reader,
     lio::Pipeline& pipeline,
     const Interruption& interruption,
-    const std::string& folder,
+    RunFiles files,
     RunSummary& summary) {
-  RunFiles files(folder);
   return use_scans(reader, interruption, [&](const lio::Scan& scan) {
     for (const lio::ImuSample& sample : reader.imu_until(scan.t_end)) {
       pipeline.add_imu(sample);
@@ -57,15 +62,18 @@ Ending process(
 }
 
 void run(const RunArguments& arguments, RunOptions& options) {
+  check(arguments.prior, arguments.folder);
   check_apart(arguments.input, arguments.folder);
   const auto reader = open_input(arguments.input, options.input);
-  const auto pipeline = make_pipeline(options, reader->info());
+  const auto pipeline = make_pipeline(arguments.prior, options, reader->info());
+  const Eigen::Vector3d origin = origin_of(arguments.prior);
   const Interruption interruption;
   io::ResultFolder results(arguments.folder);
   announce_unfinished(results);
   const auto begin = std::chrono::steady_clock::now();
   RunSummary summary;
-  Ending ending = process(*reader, *pipeline, interruption, results.path(), summary);
+  Ending ending =
+      process(*reader, *pipeline, interruption, RunFiles(results.path(), origin), summary);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
   print_notes(reader->info());
   check_useful(summary, pipeline->map().size(), ending, arguments.input);
@@ -75,7 +83,7 @@ void run(const RunArguments& arguments, RunOptions& options) {
   attempt({results.path() + "/timing.json"}, ending, [&] {
     write_timing(results.path(), summary, wall.count());
   });
-  publish(results, pipeline->map(), Eigen::Vector3d::Zero(), ending);
+  publish(results, pipeline->map(), origin, ending);
   fmt::print("{}", summary.timing_table());
   fmt::print(
       "{}: {} poses of {} scans, {} map points, {:.1f} s\n",
@@ -99,6 +107,7 @@ void add_run_command(CLI::App& app) {
       arguments->input,
       "Folder of PCD, PLY or KITTI .bin scans, nvm sequence folder, or ROS 1 bag");
   command->add_option("--out", arguments->folder, "Folder of the results");
+  add_prior_options(*command, arguments->prior);
   add_run_options(*command, arguments->options);
   command->callback([arguments] {
     std::optional<RunOptions> options = read_run_options(arguments->options);

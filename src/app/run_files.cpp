@@ -9,8 +9,9 @@
 
 namespace nvm::app {
 
-RunFiles::RunFiles(const std::string& folder)
-    : tum_(folder + "/trajectory.tum"),
+RunFiles::RunFiles(const std::string& folder, const Eigen::Vector3d& origin)
+    : origin_(origin),
+      tum_(folder + "/trajectory.tum"),
       kitti_(folder + "/trajectory_kitti.txt"),
       frames_(folder + "/frames.csv") {
   frames_.append(frame_header());
@@ -19,11 +20,13 @@ RunFiles::RunFiles(const std::string& folder)
 void RunFiles::add(const lio::FrameResult& frame) {
   frames_.append(frame_row(frame));
   if (has_pose(frame)) {
+    Pose pose = frame.T_map_body;
+    pose.translation() += origin_;
     std::ostringstream tum;
-    io::write_tum(tum, {frame.time, frame.T_map_body});
+    io::write_tum(tum, {frame.time, pose});
     tum_.append(tum.str());
     std::ostringstream kitti;
-    io::write_kitti_pose(kitti, frame.T_map_body);
+    io::write_kitti_pose(kitti, pose);
     kitti_.append(kitti.str());
   }
 }

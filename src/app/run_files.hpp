@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The nvm authors
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 
 #include "app/line_file.hpp"
@@ -15,13 +16,16 @@ namespace nvm::app {
 /// line per frame). Each frame is in the files when add() returns.
 class RunFiles {
  public:
-  /// Makes the files in `folder`. Throws std::runtime_error.
-  explicit RunFiles(const std::string& folder);
+  /// Makes the files in `folder`; poses are written with the map's origin at `origin` [m]. Throws
+  /// std::runtime_error.
+  explicit RunFiles(
+      const std::string& folder, const Eigen::Vector3d& origin = Eigen::Vector3d::Zero());
 
   /// Throws std::runtime_error when the disk is full; the frames before are whole then.
   void add(const lio::FrameResult& frame);
 
  private:
+  Eigen::Vector3d origin_;
   LineFile tum_;
   LineFile kitti_;
   LineFile frames_;

@@ -77,6 +77,27 @@ Stillness judge_stillness(
   return s;
 }
 
+void move_to(const Pose& T_map_body, InitialState& initial) {
+  constexpr double kPositionDeviation = 0.05;  // [m]
+  constexpr double kRotationDeviation = 0.02;  // [rad]
+  NavState& state = initial.state;
+  const Eigen::Matrix3d R = T_map_body.linear() * state.T_world_body.linear().transpose();
+  const Eigen::Vector3d gravity = R * state.gravity;
+  NavCovariance turn = NavCovariance::Identity();
+  turn.block<3, 3>(kPosition, kPosition) = R;
+  turn.block<3, 3>(kVelocity, kVelocity) = R;
+  turn.block<2, 2>(kGravity, kGravity) =
+      tangent_basis(gravity).transpose() * R * tangent_basis(state.gravity);
+  initial.covariance = (turn * initial.covariance * turn.transpose()).eval();
+  initial.covariance.diagonal().segment<3>(kPosition).array() +=
+      kPositionDeviation * kPositionDeviation;
+  initial.covariance.diagonal().segment<3>(kRotation).array() +=
+      kRotationDeviation * kRotationDeviation;
+  state.T_world_body = T_map_body;
+  state.velocity = (R * state.velocity).eval();
+  state.gravity = gravity;
+}
+
 ImuInitializer::ImuInitializer(const InitializerOptions& options) : options_(options) {
   options.validate();
 }

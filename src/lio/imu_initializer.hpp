@@ -49,6 +49,10 @@ struct InitialState {
   bool still = true;  ///< false: found while moving, see moving_start_after
 };
 
+/// Moves `initial` to a map that others have begun, in which the body is at about T_map_body:
+/// gravity, velocity and what is known of them turn along, so that the map need not be level.
+void move_to(const Pose& T_map_body, InitialState& initial);
+
 /// Finds gravity and the gyro bias from the first IMU readings. The world frame has its origin in
 /// the first body frame, z up, and the body's initial heading as its x axis.
 class ImuInitializer {

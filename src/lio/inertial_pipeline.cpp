@@ -55,7 +55,11 @@ InertialPipeline::InertialPipeline(
       sampler_(options.keypoints),
       search_(StartSearchOptions{}, executor),
       map_(std::move(map)),
-      matcher_(std::move(matcher)) {}
+      matcher_(std::move(matcher)) {
+  if (map_->size() > 0) {
+    search_.insert(*map_->voxel_map());
+  }
+}
 
 FrameResult InertialPipeline::process(const Scan& scan) {
   FrameResult result;
@@ -89,6 +93,9 @@ bool InertialPipeline::initialize(double until, FrameResult& result) {
     if (std::optional<InitialState> initial = initializer_.state()) {
       initial->covariance.diagonal() += extrinsic_deviations().cwiseAbs2();
       initial->state.T_body_lidar = options_.T_imu_lidar;
+      if (start_) {
+        move_to(*start_, *initial);
+      }
       filter_.emplace(initial->state, initial->covariance, options_.imu_noise);
       last_believed_ = {sample.time, initial->state.T_world_body};
       result.message = initial->still ? "" : "started while moving";
@@ -223,7 +230,7 @@ void InertialPipeline::find_again() {
 }
 
 void InertialPipeline::insert(FrameResult& result) {
-  if (result.status != FrameStatus::kTracking) {
+  if (result.status != FrameStatus::kTracking || map_->is_frozen()) {
     return;
   }
   const StageTimer timer(result.times.map_update);

@@ -60,6 +60,7 @@ class InertialPipeline final : public Pipeline {
   const LioMap& map() const override { return *map_; }
   const DeskewedScan& scan() const override { return prepared_.scan; }
   const std::vector<Eigen::Vector3f>& normals() const override { return prepared_.normals; }
+  void start_at(const Pose& T_map_body) override { start_ = T_map_body; }
 
   /// The filter, once initialised.
   const std::optional<ErrorStateFilter>& filter() const { return filter_; }
@@ -86,6 +87,7 @@ class InertialPipeline final : public Pipeline {
   StartSearch search_;
   std::unique_ptr<LioMap> map_;
   std::unique_ptr<ScanMatcher> matcher_;
+  std::optional<Pose> start_;  ///< T_map_body in a map that others have begun
   std::optional<ErrorStateFilter> filter_;
   double initialized_until_ = -1e300;  ///< time of the last reading given to the initializer [s]
   StampedPose last_believed_;          ///< of the last frame that was

@@ -35,6 +35,15 @@ LidarOdometry::LidarOdometry(
       map_(std::move(map)) {
   predicted_.T_body_lidar = options.T_body_lidar;
   predicted_.time = -std::numeric_limits<double>::infinity();
+  if (map_->size() > 0) {
+    search_.insert(*map_->voxel_map());
+  }
+}
+
+// Long ago, so that it tells no velocity and a scan that does not fit there counts as lost.
+void LidarOdometry::start_at(const Pose& T_map_body) {
+  constexpr double kLongAgo = -1e9;  // [s]
+  motion_.emplace(StampedPose{kLongAgo, T_map_body});
 }
 
 FrameResult LidarOdometry::process(const Scan& scan) {
@@ -193,6 +202,9 @@ void LidarOdometry::insert(const Normals& normals, FrameResult& result) {
   }
   result.velocity = motion_->velocity();
   result.angular_rate = motion_->rate();
+  if (map_->is_frozen()) {
+    return;
+  }
   result.inserted = map_->insert(scan_.points, normals, result.T_map_lidar);
   search_.insert(scan_.points, normals, result.T_map_lidar);
 }

@@ -34,6 +34,7 @@ class LidarOdometry final : public Pipeline {
   const LioMap& map() const override { return *map_; }
   const DeskewedScan& scan() const override { return scan_; }
   const std::vector<Eigen::Vector3f>& normals() const override { return *normals_; }
+  void start_at(const Pose& T_map_body) override;
 
  private:
   using Normals = std::vector<Eigen::Vector3f>;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #if __has_include(<nanoflann.hpp>)
 #include "nvm/map/kd_tree_map.hpp"
@@ -31,6 +32,7 @@ const Points& with_normal(const Points& points, const Points& normals, Points& k
 class VoxelLioMap : public LioMap {
  public:
   explicit VoxelLioMap(const MapOptions& options) : map_(options) {}
+  explicit VoxelLioMap(VoxelMap map) : map_(std::move(map)) {}
 
   InsertStats insert(const Points& points, const Points& normals, const Pose& T_map_scan) override {
     return bounded(map_.insert(points, normals, T_map_scan), T_map_scan);
@@ -61,6 +63,14 @@ class VoxelLioMap : public LioMap {
   }
 
   VoxelMap map_;
+};
+
+class FrozenLioMap final : public VoxelLioMap {
+ public:
+  using VoxelLioMap::VoxelLioMap;
+
+  InsertStats insert(const Points&, const Points&, const Pose&) override { return {}; }
+  bool is_frozen() const override { return true; }
 };
 
 MapOptions one_surface(MapOptions options) {
@@ -193,6 +203,13 @@ std::unique_ptr<LioMap> make_map(MapType type, const MapOptions& options) {
 #endif
   }
   throw std::invalid_argument("nvm: unknown map type");
+}
+
+std::unique_ptr<LioMap> continued_map(VoxelMap prior, bool is_frozen) {
+  if (is_frozen) {
+    return std::make_unique<FrozenLioMap>(std::move(prior));
+  }
+  return std::make_unique<VoxelLioMap>(std::move(prior));
 }
 
 }  // namespace nvm::lio

@@ -43,6 +43,9 @@ class LioMap {
 
   /// The voxel map inside, null for a map of another kind.
   virtual const VoxelMap* voxel_map() const { return nullptr; }
+
+  /// Whether insert() leaves it as it is.
+  virtual bool is_frozen() const { return false; }
 };
 
 /// Names of the kinds of map, for `map.type`.
@@ -55,5 +58,9 @@ enum class MapType {
 };
 
 std::unique_ptr<LioMap> make_map(MapType type, const MapOptions& options);
+
+/// A two-sided map that others have begun, with its own options. Frozen, it stays as it is; else
+/// scans go on into it.
+std::unique_ptr<LioMap> continued_map(VoxelMap prior, bool is_frozen);
 
 }  // namespace nvm::lio

@@ -80,6 +80,10 @@ class Pipeline {
   /// there is no plane. Only of use when that gave a pose.
   virtual const DeskewedScan& scan() const = 0;
   virtual const std::vector<Eigen::Vector3f>& normals() const = 0;
+
+  /// Says where the body is in a map that others have begun, at the end of the next scan: about, as
+  /// far as scans can be aligned. Only before the first pose.
+  virtual void start_at(const Pose& T_map_body) = 0;
 };
 
 }  // namespace nvm::lio

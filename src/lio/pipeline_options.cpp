@@ -71,8 +71,12 @@ PipelineType resolve(PipelineType type, bool has_imu) {
 }
 
 std::unique_ptr<Pipeline> make_pipeline(const PipelineOptions& options) {
+  return make_pipeline(options, make_map(options.map_type, options.map));
+}
+
+std::unique_ptr<Pipeline> make_pipeline(
+    const PipelineOptions& options, std::unique_ptr<LioMap> map) {
   const Executor executor(options.threads);
-  std::unique_ptr<LioMap> map = make_map(options.map_type, options.map);
   if (options.type == PipelineType::kLidarOnly) {
     return std::make_unique<LidarOdometry>(lidar_only_options(options), std::move(map), executor);
   }

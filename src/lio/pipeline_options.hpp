@@ -62,4 +62,9 @@ PipelineType resolve(PipelineType type, bool has_imu);
 /// the first bad option.
 std::unique_ptr<Pipeline> make_pipeline(const PipelineOptions& options);
 
+/// The same on a map of its own, which may be one that others have begun (see Pipeline::start_at);
+/// what `options` say of the map is ignored.
+std::unique_ptr<Pipeline> make_pipeline(
+    const PipelineOptions& options, std::unique_ptr<LioMap> map);
+
 }  // namespace nvm::lio

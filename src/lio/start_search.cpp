@@ -50,6 +50,25 @@ void StartSearch::insert(
   map_.insert(points, normals, T_map_scan);
 }
 
+void StartSearch::insert(const VoxelMap& map) {
+  constexpr std::size_t kBlock = 65536;  // so that large maps are not held twice
+  std::vector<Eigen::Vector3f> points;
+  std::vector<Eigen::Vector3f> normals;
+  const auto insert_block = [&] {
+    map_.insert(points, normals);
+    points.clear();
+    normals.clear();
+  };
+  map.for_each_point([&](const MapPoint& point) {
+    points.push_back(point.position.cast<float>());
+    normals.push_back(point.normal);
+    if (points.size() == kBlock) {
+      insert_block();
+    }
+  });
+  insert_block();
+}
+
 std::vector<Pose> StartSearch::search(
     const std::vector<Eigen::Vector3f>& points,
     const std::vector<Eigen::Vector3f>& normals,

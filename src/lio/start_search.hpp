@@ -27,6 +27,9 @@ class StartSearch {
       const std::vector<Eigen::Vector3f>& normals,
       const Pose& T_map_scan);
 
+  /// Adds the points of `map`, which has none in common with the scans so far.
+  void insert(const VoxelMap& map);
+
   /// The poses that alignment to the coarse map finds from each of `guesses`, best fit first.
   std::vector<Pose> search(
       const std::vector<Eigen::Vector3f>& points,
