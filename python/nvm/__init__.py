@@ -23,6 +23,7 @@ from ._nvm import (
     view_directions,
 )
 from .commands import evaluate, simulate
+from .store import Store, open_store
 
 __all__ = [
     "AlignResult",
@@ -33,11 +34,13 @@ __all__ = [
     "NormalResult",
     "Odometry",
     "ScanAligner",
+    "Store",
     "VoxelMap",
     "__version__",
     "estimate_normals",
     "evaluate",
     "load",
+    "open_store",
     "simulate",
     "view_directions",
 ]

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 
 from . import __version__
@@ -12,19 +13,31 @@ from .bags import BagError, Recording, is_bag
 
 
 def info(arguments) -> None:
-    """Says what a recording or a saved map holds."""
+    """Says what a recording, a saved map or a tile store holds."""
     from .info import described
 
     if is_bag(arguments.path):
         with Recording(arguments.path) as recording:
             print(described(recording))
         return
-    from . import load
+    from . import load, open_store
 
+    if os.path.isdir(arguments.path):
+        describe_store(open_store(arguments.path), arguments.check)
+        return
     voxel_map = load(arguments.path)
     print(voxel_map)
     for name, value in voxel_map.options.items():
         print(f"{name:<20} {value}")
+
+
+def describe_store(store, is_to_check: bool) -> None:
+    print(store)
+    problems = store.check() if is_to_check else []
+    if problems:
+        raise RuntimeError("; ".join(problems))
+    if is_to_check:
+        print(f"all {len(store.tiles)} tiles are whole")
 
 
 PROGRAM_COMMANDS = {
@@ -92,7 +105,8 @@ def parser() -> argparse.ArgumentParser:
     top.add_argument("--version", action="version", version=f"nvm {__version__}")
     commands = top.add_subparsers(required=True, metavar="COMMAND")
     command = commands.add_parser("info", help="say what a recording or a saved map holds")
-    command.add_argument("path", help="a bag of ROS 1 or ROS 2, or a map.nvm file")
+    command.add_argument("path", help="a bag of ROS 1 or ROS 2, a map.nvm file, or a tile store")
+    command.add_argument("--check", action="store_true", help="read every tile of a store")
     command.set_defaults(run=info)
     command = commands.add_parser("view", help="show the results of a run in rerun")
     command.add_argument("path", help="a folder of nvm run or nvm map, a map.nvm or a TUM file")

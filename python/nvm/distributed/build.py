@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: MIT
+# Copyright (c) 2026 The nvm authors
+"""Builds a tile store from sessions."""
+
+from __future__ import annotations
+
+import json
+import math
+import shutil
+from pathlib import Path
+
+from .._nvm import VoxelMap
+from ..store import FOLDER, FORMAT, INDEX, VERSION, Store, open_store, write_durably
+from .session import Session
+from .tiling import MARGIN_VOXELS, Plan, build_tile, cut
+
+PARTS = "parts"
+
+
+def build(
+    sessions: list[Session],
+    store,
+    *,
+    client=None,
+    tile_size: float = 20.0,
+    scans_per_task: int = 20,
+    map_options: dict | None = None,
+    normal_options: dict | None = None,
+) -> Store:
+    """Builds the map of all sessions, in tiles, and opens it.
+
+    Points come into each tile in the order of the sessions and of their scans: the bytes of the
+    store are the same whoever builds it, in whatever order tasks come to their end.
+
+    Parameters
+    ----------
+    sessions : list of Session
+    store : path
+        A folder that all workers see. It must not hold a store; what a killed build has left there
+        is built again.
+    client : distributed.Client, optional
+        Whose workers build; None: this process does, one task after the other.
+    tile_size : float
+        Edge of a tile [m], rounded up to whole voxels.
+    scans_per_task : int
+        A worker holds so many scans, or one tile, at a time.
+    map_options, normal_options : dict, optional
+        As for `VoxelMap` and `NormalEstimator`.
+
+    Raises
+    ------
+    ValueError
+        For sessions without scans, bad options, and a store that exists.
+    OSError
+        When the disk is full. There is no store then, and the next build begins anew.
+    """
+    path = Path(store)
+    plan = _plan(path, tile_size, dict(map_options or {}), dict(normal_options or {}))
+    blocks = _blocks(sessions, scans_per_task)
+    _make_room(path, plan)
+    run = _serially if client is None else _Cluster(client)
+    parts: dict[tuple, list[str]] = {}
+    for files in run(cut, [(plan, number, scans) for number, scans in enumerate(blocks)]):
+        for tile, file in files.items():
+            parts.setdefault(tile, []).append(file)
+    tiles = run(build_tile, [(plan, tile, parts[tile]) for tile in sorted(parts)])
+    shutil.rmtree(plan.parts, ignore_errors=True)
+    index = {
+        "format": FORMAT,
+        "version": VERSION,
+        "tile_size": plan.tile_voxels * plan.voxel_size,
+        "margin": MARGIN_VOXELS * plan.voxel_size,
+        "options": plan.map_options,
+        "tiles": [tile for tile in tiles if tile is not None],
+    }
+    write_durably(path / INDEX, json.dumps(index, indent=1) + "\n")
+    return open_store(path)
+
+
+def _plan(path: Path, tile_size: float, map_options: dict, normal_options: dict) -> Plan:
+    options = VoxelMap(**map_options).options
+    if not (math.isfinite(tile_size) and tile_size > 0.0):
+        raise ValueError(f"tile_size must be positive [m], not {tile_size}")
+    voxels = math.ceil(tile_size / options["voxel_size"] - 1e-9)
+    if voxels <= 2 * MARGIN_VOXELS:
+        raise ValueError(
+            f"tile_size={tile_size} must be more than {2 * MARGIN_VOXELS} voxels of "
+            f"{options['voxel_size']} m"
+        )
+    return Plan(str(path), str(path / PARTS), voxels, options, normal_options)
+
+
+def _blocks(sessions: list[Session], scans_per_task: int) -> list[list]:
+    if scans_per_task < 1:
+        raise ValueError(f"scans_per_task must be 1 or more, not {scans_per_task}")
+    scans = [pair for session in sessions for pair in zip(session.scans, session.poses)]
+    if not scans:
+        raise ValueError("the sessions have no scans")
+    return [scans[i : i + scans_per_task] for i in range(0, len(scans), scans_per_task)]
+
+
+def _make_room(path: Path, plan: Plan) -> None:
+    if (path / INDEX).exists():
+        raise ValueError(f"{path}: holds a store already; give another folder, or remove it")
+    for folder in (Path(plan.parts), path / FOLDER):  # of a build that was killed
+        if folder.exists():
+            shutil.rmtree(folder)
+        folder.mkdir(parents=True)
+
+
+def _serially(task, arguments: list[tuple]) -> list:
+    return [task(*each) for each in arguments]
+
+
+class _Cluster:
+    """Runs tasks on the workers of a client; those of a worker that dies run again elsewhere."""
+
+    def __init__(self, client):
+        self._client = client
+
+    def __call__(self, task, arguments: list[tuple]) -> list:
+        futures = [self._client.submit(task, *each, pure=False, retries=3) for each in arguments]
+        return self._client.gather(futures)

@@ -1,0 +1,185 @@
+# SPDX-License-Identifier: MIT
+# Copyright (c) 2026 The nvm authors
+"""A map in tiles, larger than one machine's memory: a folder with a ``.nvm`` file per tile and an index.
+
+docs/living_maps.md describes the format.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import zlib
+from collections import OrderedDict
+from pathlib import Path
+
+import numpy as np
+
+from ._nvm import VoxelMap, load
+
+FORMAT = "nvm-store"
+VERSION = 1
+INDEX = "index.json"
+FOLDER = "tiles"
+
+Tile = tuple[int, int, int]
+
+
+def tile_name(tile: Tile) -> str:
+    return f"{FOLDER}/{'_'.join(map(str, tile))}.nvm"
+
+
+def checksum(path: Path) -> int:
+    """CRC-32 of the bytes of a file."""
+    crc = 0
+    with path.open("rb") as file:
+        while block := file.read(1 << 20):
+            crc = zlib.crc32(block, crc)
+    return crc
+
+
+def write_durably(path: Path, text: str) -> None:
+    """Puts `text` at `path` all or not at all, whatever is killed or loses power."""
+    temporary = path.with_name(f"{path.name}.{os.getpid()}.part")
+    try:
+        with temporary.open("w") as file:
+            file.write(text)
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(temporary, path)
+    finally:
+        temporary.unlink(missing_ok=True)
+    folder = os.open(path.parent, os.O_RDONLY)
+    try:
+        os.fsync(folder)
+    finally:
+        os.close(folder)
+
+
+class Store:
+    """The tiles of a map, opened as one map: they are loaded as queries need them.
+
+    Attributes
+    ----------
+    path : Path
+    options : dict
+        Of each tile's map.
+    tile_size : float
+        Edge of a tile's cube [m].
+    tiles : dict
+        From the index of a tile, (x, y, z), to what the store's index says of it.
+    """
+
+    def __init__(self, path, *, max_tiles: int = 16):
+        """Opens the store in the folder `path`; at most `max_tiles` tiles stay in memory."""
+        if max_tiles < 1:
+            raise ValueError(f"max_tiles must be 1 or more, not {max_tiles}")
+        self.path = Path(path)
+        index = read_index(self.path)
+        self.options: dict = index["options"]
+        self.tile_size: float = index["tile_size"]
+        self.tiles: dict[Tile, dict] = {tuple(entry["tile"]): entry for entry in index["tiles"]}
+        self._max_tiles = max_tiles
+        self._loaded: OrderedDict[Tile, tuple[VoxelMap, np.ndarray]] = OrderedDict()
+
+    def __len__(self) -> int:
+        """Points, each counted in the tile that it lies in."""
+        return sum(entry["points"] for entry in self.tiles.values())
+
+    def __repr__(self) -> str:
+        return f"<nvm.Store: {len(self)} points in {len(self.tiles)} tiles of {self.tile_size} m>"
+
+    def load(self, tile: Tile) -> VoxelMap:
+        """The map of a tile, with a margin of what its neighbours hold. KeyError when it is empty."""
+        return self._with_points(tile)[0]
+
+    def _with_points(self, tile: Tile) -> tuple[VoxelMap, np.ndarray]:
+        if tile not in self._loaded:
+            voxel_map = load(str(self.path / self.tiles[tile]["file"]))
+            self._loaded[tile] = (voxel_map, voxel_map.points)
+            if len(self._loaded) > self._max_tiles:
+                self._loaded.popitem(last=False)
+        self._loaded.move_to_end(tile)
+        return self._loaded[tile]
+
+    def tile_of(self, points: np.ndarray) -> np.ndarray:
+        """(M, 3) int64: the tiles in which `points` (M, 3) [m] lie."""
+        return np.floor(np.asarray(points, dtype=float) / self.tile_size).astype(np.int64)
+
+    def nearest(self, points, normals=None, k: int = 5, max_distance: float = 1.0):
+        """What `VoxelMap.nearest` of the whole map would find.
+
+        Returns
+        -------
+        distances : (M, k) float64
+            [m], ascending; inf where there are fewer than k.
+        positions : (M, k, 3) float64
+            [m]; NaN where there are fewer than k.
+        counts : (M,) int64
+        """
+        points = np.asarray(points, dtype=float).reshape(-1, 3)
+        normals = None if normals is None else np.asarray(normals, dtype=float).reshape(points.shape)
+        distances = np.full((len(points), k), np.inf)
+        positions = np.full((len(points), k, 3), np.nan)
+        counts = np.zeros(len(points), dtype=np.int64)
+        usable = np.flatnonzero(np.isfinite(points).all(axis=1))
+        tiles, inverse = np.unique(self.tile_of(points[usable]), axis=0, return_inverse=True)
+        for i, tile in enumerate(map(tuple, tiles.tolist())):
+            if tile not in self.tiles:
+                continue
+            rows = usable[inverse.reshape(-1) == i]
+            voxel_map, stored = self._with_points(tile)
+            found = voxel_map.nearest(
+                points[rows], None if normals is None else normals[rows], k, max_distance, threads=1
+            )
+            distances[rows], counts[rows] = found[0], found[2]
+            is_there = found[1] < len(stored)
+            positions[rows] = np.where(
+                is_there[..., None], stored[np.minimum(found[1], len(stored) - 1)], np.nan
+            )
+        return distances, positions, counts
+
+    def check(self) -> list[str]:
+        """Reads every tile; what is wrong, a line each."""
+        problems = []
+        for entry in self.tiles.values():
+            path = self.path / entry["file"]
+            try:
+                if path.stat().st_size != entry["bytes"] or checksum(path) != entry["crc32"]:
+                    problems.append(f"{path}: is not the file that the index tells of: build again")
+                else:
+                    load(str(path))
+            except (OSError, RuntimeError) as error:
+                problems.append(str(error))
+        return problems
+
+
+def read_index(path: Path) -> dict:
+    """The index of a store; RuntimeError, in one line, when there is none that this nvm reads."""
+    file = path / INDEX
+    if not file.is_file():
+        begun = (path / FOLDER).is_dir()
+        why = "its build has not come to its end: build again" if begun else f"has no {INDEX}"
+        raise RuntimeError(f"{path}: is no store: {why}")
+    try:
+        index = json.loads(file.read_text())
+        if index["format"] != FORMAT:
+            raise ValueError
+        version = int(index["version"])
+        if version <= VERSION:
+            for entry in index["tiles"]:
+                _ = entry["tile"], entry["file"], entry["points"], entry["bytes"], entry["crc32"]
+            _ = index["options"], index["tile_size"]
+    except (ValueError, KeyError, TypeError) as error:
+        raise RuntimeError(f"{file}: is not the index of a store, or is damaged") from error
+    if version > VERSION:
+        raise RuntimeError(f"{file}: has version {version}; this nvm reads up to {VERSION}")
+    return index
+
+
+def open_store(path, *, max_tiles: int = 16) -> Store:
+    """Opens what `nvm.distributed.build` made, as one map. RuntimeError when it is no store.
+
+    At most `max_tiles` tiles, those that were used last, stay in memory.
+    """
+    return Store(path, max_tiles=max_tiles)
