@@ -2,7 +2,7 @@
 # Copyright (c) 2026 The nvm authors
 """How the time to build a tile store scales: measured with 1 and 2 workers, modelled beyond.
 
-    python python/benchmarks/distributed.py [--points 2e7] [--workers 1 2]
+    python python/benchmarks/tile_store.py [--points 2e7] [--workers 1 2]
 
 The model packs the measured times of the tasks, which one process takes, onto more workers.
 """
