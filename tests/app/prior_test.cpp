@@ -80,7 +80,7 @@ TEST_F(PriorTest, RefusesArgumentsThatDoNotGoTogether) {
   expect_failure(in_prior("--start 1,2,3"), "4 numbers");
   expect_failure(in_prior("--start 1,2,3,90"), "radians");
   expect_failure(in_prior("--start 0,0,0,0,0,0,2"), "unit quaternion");
-  expect_failure(in_prior("--start 0,0,0,0 --set map.type=kd_tree"), "map.type=nvm");
+  expect_failure(in_prior("--start 0,0,0,0 --set map.type=kdtree"), "map.type=nvm");
 }
 
 TEST_F(PriorTest, RefusesToReplaceThePriorMap) {
