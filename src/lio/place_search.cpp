@@ -117,7 +117,7 @@ bool PlaceSearch::choose_keypoints(
 std::vector<Pose> PlaceSearch::guesses_for(const Eigen::Matrix3d& R_level_scan) const {
   constexpr std::size_t kMostHeights = 5;
   constexpr std::size_t kMostPoints = 120;
-  constexpr std::size_t kMostPlaces = 16;
+  constexpr std::size_t kMostPlaces = 80;
   Outline scan;
   for (std::size_t i = 0; i < key_points_.size(); ++i) {
     scan.add(
@@ -171,7 +171,7 @@ Place PlaceSearch::refined(const Pose& T_map_scan) {
 
 /// Best first.
 std::vector<Place> PlaceSearch::places_from(const std::vector<Pose>& guesses) {
-  constexpr std::size_t kMostRefined = 6;
+  constexpr std::size_t kMostRefined = 40;
   const std::vector<Pose> found = coarse_.search(key_points_, key_normals_, guesses);
   std::vector<Place> places;
   for (std::size_t i = 0; i < std::min(found.size(), kMostRefined); ++i) {
