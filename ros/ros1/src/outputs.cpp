@@ -43,7 +43,8 @@ std::size_t listeners_of(const std::string& topic) {
 
 bool has_pose(const nvm::lio::FrameResult& frame) {
   using nvm::lio::FrameStatus;
-  return frame.status == FrameStatus::kTracking || frame.status == FrameStatus::kWeak;
+  return frame.status != FrameStatus::kInitializing && frame.status != FrameStatus::kLost &&
+         frame.status != FrameStatus::kSkipped;
 }
 
 Outputs::Outputs(ros::NodeHandle handle, const NodeOptions& options) : options_(options) {

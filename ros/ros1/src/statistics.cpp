@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "outputs.hpp"
+
 namespace nvm_ros {
 
 namespace {
@@ -47,7 +49,7 @@ void Statistics::add(const nvm::lio::FrameResult& frame, Clock::time_point arriv
   last_ = frame;
   ++scans_;
   ++period_.scans;
-  poses_ += frame.status == FrameStatus::kTracking || frame.status == FrameStatus::kWeak ? 1 : 0;
+  poses_ += has_pose(frame) ? 1 : 0;
   period_.latency_sum += latency;
   period_.latency_max = std::max(period_.latency_max, latency);
   period_.cpu_sum += frame.times.total();
