@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The nvm authors
 
 // What filling a map costs: insertion, growth, memory, files; nvm's map and those that odometries
-// use. One thread, but for insert_clouds over oneTBB.
+// use. One thread.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -14,7 +14,6 @@
 #include <utility>
 #include <vector>
 
-#include "nvm/core/executor_tbb.hpp"
 #include "nvm/map/serialization.hpp"
 #include "support/contestants.hpp"
 #include "support/cpu_seconds.hpp"
@@ -93,48 +92,6 @@ void insert_raw(benchmark::State& state) {
 template <class Map>
 void insert_new(benchmark::State& state) {
   insert_scans<Map>(state, new_points());
-}
-
-/// The walk in clouds of six scans each, in the map frame.
-const std::vector<CorridorScan>& clouds() {
-  static const std::vector<CorridorScan> all_clouds = [] {
-    constexpr std::size_t kScans = 6;
-    std::vector<CorridorScan> all(walk().size() / kScans);
-    for (std::size_t s = 0; s < all.size() * kScans; ++s) {
-      const CorridorScan& scan = walk()[s];
-      CorridorScan& cloud = all[s / kScans];
-      for (std::size_t i = 0; i < scan.points.size(); ++i) {
-        cloud.points.push_back(scan.T_map_scan.cast<float>() * scan.points[i]);
-        cloud.normals.push_back(scan.T_map_scan.linear().cast<float>() * scan.normals[i]);
-      }
-    }
-    return all;
-  }();
-  return all_clouds;
-}
-
-/// insert_clouds<executor>/<visited>: clouds of 144 000 points, in wall time per point, into an
-/// empty map, or (1) into one that has them already.
-template <class Executor>
-void insert_clouds(benchmark::State& state) {
-  const bool visited = state.range(0) != 0;
-  VoxelMap map(nvm_options());
-  std::size_t points = 0;
-  for (const CorridorScan& cloud : clouds()) {
-    map.insert(cloud.points, cloud.normals);
-    points += cloud.points.size();
-  }
-  for (auto _ : state) {
-    if (!visited) {
-      map.clear();
-    }
-    for (const CorridorScan& cloud : clouds()) {
-      map.insert(cloud.points, cloud.normals, cloud.T_map_scan, Executor());
-    }
-  }
-  state.counters["ns_per_point"] = benchmark::Counter(
-      static_cast<double>(points) * 1e-9,
-      benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
 /// The patches of a field as scans, for any map.
@@ -244,16 +201,6 @@ NVM_GROWTH_BENCHMARK(SmallGicp);
 BENCHMARK_TEMPLATE(insert_raw, KissIcp)->Unit(benchmark::kMillisecond);
 BENCHMARK_TEMPLATE(insert_new, KissIcp)->Unit(benchmark::kMillisecond);
 #endif
-BENCHMARK_TEMPLATE(insert_clouds, SerialExecutor)
-    ->Arg(0)
-    ->Arg(1)
-    ->UseRealTime()
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_TEMPLATE(insert_clouds, TbbExecutor)
-    ->Arg(0)
-    ->Arg(1)
-    ->UseRealTime()
-    ->Unit(benchmark::kMillisecond);
 BENCHMARK(memory);
 BENCHMARK(save)->Unit(benchmark::kMillisecond);
 BENCHMARK(load)->Unit(benchmark::kMillisecond);

@@ -61,6 +61,19 @@ def count_instructions(program: Path):
     return int(collected[1]) / int(queries[1]) if collected and queries else None
 
 
+def plain_flags_ratios(folder: Path, repetitions: int) -> dict:
+    """Time with -O2 -march=native / time with -O2 alone: 1 is as fast without as with the machine's flags."""
+    programs = {flags: folder / f"nvm_flags_probe_{flags}" for flags in ("plain", "native")}
+    if not all(program.exists() for program in programs.values()):
+        return {}
+    runs = defaultdict(list)
+    for _ in range(repetitions):
+        for flags, program in programs.items():
+            runs[flags].append(json.loads(subprocess.run([program], capture_output=True, text=True, check=True).stdout))
+    return {f"{key}_plain_flags_ratio": statistics.median(run[key] for run in runs["native"])
+            / statistics.median(run[key] for run in runs["plain"]) for key in runs["plain"][0]}
+
+
 def figures(records: dict, instructions) -> dict:
     scan_order, per_point = "/0", "ns_per_point"
     return {
@@ -117,7 +130,7 @@ def main() -> int:
         else:
             print(f"run.py: {program} is not built: skipped", file=sys.stderr)
     instructions = count_instructions(options.build / "benchmarks" / "nvm_query_probe")
-    values = figures(records, instructions)
+    values = figures(records, instructions) | plain_flags_ratios(options.build / "benchmarks", options.repetitions)
     (options.build / "figures.json").write_text(json.dumps(values, indent=2) + "\n")
     summary = "\n".join(f"| {key} | {'not measured' if value is None else f'{value:.4g}'} |" for key, value in values.items())
     report = f"{machine()}\n\n| figure | value |\n|---|---|\n{summary}\n\n{table(records)}\n"

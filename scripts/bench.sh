@@ -30,5 +30,5 @@ sophus=${NVM_SOPHUS_INCLUDE:-$rivals/Sophus}
 
 cmake --preset bench -D NVM_SMALL_GICP_INCLUDE="$(realpath $rivals/small_gicp-1.0.1/include 2>/dev/null || true)" \
   -D NVM_KISS_ICP_SOURCE="${kiss_icp:+$(realpath "$kiss_icp")}" -D NVM_SOPHUS_INCLUDE="${kiss_icp:+$(realpath "$sophus")}"
-cmake --build --preset bench --target nvm_map_benchmark nvm_normals_benchmark nvm_query_probe
+cmake --build --preset bench --target nvm_map_benchmark nvm_normals_benchmark nvm_query_probe nvm_flags_probe_plain nvm_flags_probe_native
 python3 benchmarks/run.py "$@"

@@ -28,3 +28,13 @@
 
 /// For the code of types that translation units for different instruction sets share.
 #define NVM_SHARED [[gnu::always_inline]]
+
+// The headers in which the time is spent are kernels: they are compiled once for the instruction
+// set of the translation unit and, where that is plain x86-64, once more for AVX2, and the
+// processor decides which of the two runs. Their code stands between macros that open a namespace
+// for each of the two; they have guards in place of #pragma once, which map_kernels.hpp and
+// normal_kernels.hpp take away before the second time.
+#if defined(__SSE2__) && defined(__x86_64__) && !defined(__AVX2__) && !defined(_WIN32)
+#define NVM_CHOOSES_KERNELS
+#endif
+#include "nvm/core/kernels_for_unit.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#pragma once
+#ifndef NVM_GEOMETRY_FLOAT_LANES_HPP  // a kernel: nvm/core/target.hpp
+#define NVM_GEOMETRY_FLOAT_LANES_HPP
 
 #include <cmath>
 #include <cstddef>
@@ -11,18 +12,17 @@
 #include <immintrin.h>
 #elif defined(__ARM_NEON)
 #include <arm_neon.h>
+#endif
 
 #include "nvm/core/target.hpp"
-#endif
 
 // Arithmetic on several floats at once with the vector types of GCC and Clang: SSE2, AVX or NEON
 // code from one source. Code that is a template over its number type runs on float, on double and
 // on FloatLanes; on float and FloatLanes it gives the same bits.
-namespace nvm {
-inline namespace NVM_TARGET {
+NVM_BEGIN_KERNELS
 
 /// Floats in one FloatLanes: as many as a register of the target holds.
-#if defined(__AVX__)
+#if defined(NVM_KERNEL_AVX)
 inline constexpr std::size_t kLaneCount = 8;
 #else
 inline constexpr std::size_t kLaneCount = 4;
@@ -58,7 +58,7 @@ template <class Real>
 Real multiply_add(const Real& a, const Real& b, const Real& c) {
   return a * b + c;
 }
-#if defined(__FMA__) || (defined(__ARM_FEATURE_FMA) && defined(__ARM_NEON))
+#if defined(NVM_KERNEL_FMA) || (defined(__ARM_FEATURE_FMA) && defined(__ARM_NEON))
 template <>
 inline float multiply_add(const float& a, const float& b, const float& c) {
   return std::fma(a, b, c);
@@ -69,7 +69,7 @@ inline double multiply_add(const double& a, const double& b, const double& c) {
 }
 template <>
 inline FloatLanes multiply_add(const FloatLanes& a, const FloatLanes& b, const FloatLanes& c) {
-#if defined(__FMA__)
+#if defined(NVM_KERNEL_FMA)
   return _mm256_fmadd_ps(a, b, c);
 #else
   return vfmaq_f32(c, a, b);
@@ -95,7 +95,7 @@ Real smaller(const Real& a, const Real& b) {
 
 /// Bit i is set where lane i of the result of a comparison is true.
 inline std::uint32_t lane_bits(const FloatLaneBits& mask) {
-#if defined(__AVX__)
+#if defined(NVM_KERNEL_AVX)
   return static_cast<std::uint32_t>(_mm256_movemask_ps(reinterpret_cast<__m256>(mask)));
 #elif defined(__SSE2__)
   return static_cast<std::uint32_t>(_mm_movemask_ps(reinterpret_cast<__m128>(mask)));
@@ -108,9 +108,8 @@ inline std::uint32_t lane_bits(const FloatLaneBits& mask) {
 #endif
 }
 
-}  // namespace NVM_TARGET
-namespace detail {
-inline namespace NVM_TARGET {
+NVM_END_KERNELS
+NVM_BEGIN_DETAIL_KERNELS
 
 // 1/sqrt by Newton steps from a first guess out of the float's bits. Plain arithmetic, because
 // std::sqrt may set errno and therefore does not vectorise without -fno-math-errno.
@@ -128,9 +127,8 @@ Real newton_inverse_sqrt(const Real& value) {
   return y;
 }
 
-}  // namespace NVM_TARGET
-}  // namespace detail
-inline namespace NVM_TARGET {
+NVM_END_DETAIL_KERNELS
+NVM_BEGIN_KERNELS
 
 /// 1/sqrt(value) to 2 units in the last place for positive normal numbers; finite for zero.
 inline FloatLanes inverse_sqrt(const FloatLanes& value) {
@@ -141,5 +139,6 @@ inline float inverse_sqrt(float value) {
 }
 inline double inverse_sqrt(double value) { return value > 0.0 ? 1.0 / std::sqrt(value) : 0.0; }
 
-}  // namespace NVM_TARGET
-}  // namespace nvm
+NVM_END_KERNELS
+
+#endif  // NVM_GEOMETRY_FLOAT_LANES_HPP

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#pragma once
+#ifndef NVM_GEOMETRY_MOMENTS_HPP  // a kernel: nvm/core/target.hpp
+#define NVM_GEOMETRY_MOMENTS_HPP
 
 #include "nvm/core/target.hpp"
 
-namespace nvm {
-inline namespace NVM_TARGET {
+NVM_BEGIN_KERNELS
 
 /// A symmetric 3x3 matrix. `Real` is float, double or FloatLanes (one matrix per lane).
 template <class Real>
@@ -54,5 +54,6 @@ Symmetric3<Real> scatter(const Moments<Real>& m) {
       m.zz - m.z * mean_z};
 }
 
-}  // namespace NVM_TARGET
-}  // namespace nvm
+NVM_END_KERNELS
+
+#endif  // NVM_GEOMETRY_MOMENTS_HPP

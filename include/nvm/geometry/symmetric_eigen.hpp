@@ -1,35 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#pragma once
+#ifndef NVM_GEOMETRY_SYMMETRIC_EIGEN_HPP  // a kernel: nvm/core/target.hpp
+#define NVM_GEOMETRY_SYMMETRIC_EIGEN_HPP
 
 #include <Eigen/Core>
 #include <tuple>
 #include <type_traits>
 
 #include "nvm/core/target.hpp"
+#include "nvm/geometry/eigen3.hpp"
 #include "nvm/geometry/float_lanes.hpp"
 #include "nvm/geometry/moments.hpp"
 
-namespace nvm {
-inline namespace NVM_TARGET {
-
-/// Three coordinates of number type `Real`: float, double or FloatLanes (one vector per lane).
-template <class Real>
-struct Vector3Of {
-  Real x{}, y{}, z{};
-};
-
-/// Eigenvalues of a symmetric 3x3 matrix, ascending, and their unit eigenvectors, orthogonal to
-/// each other. The sign of an eigenvector is arbitrary.
-template <class Real>
-struct Eigen3 {
-  Real smallest{}, middle{}, largest{};
-  Vector3Of<Real> smallest_vector, middle_vector, largest_vector;
-};
-
-}  // namespace NVM_TARGET
-namespace detail {
-inline namespace NVM_TARGET {
+NVM_BEGIN_DETAIL_KERNELS
 
 template <class Real>
 Real dot(const Vector3Of<Real>& a, const Vector3Of<Real>& b) {
@@ -203,9 +186,8 @@ EigenPair<Real> eigen_pair_across(const Symmetric3<Real>& m, const Vector3Of<Rea
       combine(cosine, u, sine, w)};
 }
 
-}  // namespace NVM_TARGET
-}  // namespace detail
-inline namespace NVM_TARGET {
+NVM_END_DETAIL_KERNELS
+NVM_BEGIN_KERNELS
 
 /// Eigenvalues and eigenvectors of `m` in closed form, without branches: the same steps for every
 /// matrix and, with FloatLanes, for several matrices at once.
@@ -257,5 +239,6 @@ inline EigenDecomposition eigen_decomposition(const Eigen::Matrix3d& m) {
   return result;
 }
 
-}  // namespace NVM_TARGET
-}  // namespace nvm
+NVM_END_KERNELS
+
+#endif  // NVM_GEOMETRY_SYMMETRIC_EIGEN_HPP

@@ -46,8 +46,8 @@ struct MapOptions {
   /// stored moves the one that it is too close to along the normal to the mean of their planes,
   /// until that one stands for this many; then it stays, so that the map does not follow a drifting
   /// trajectory. With 1 stored points never move. Needs normals, and 8 bytes more per 8 points.
-  /// Moved points may come nearer to each other than min_point_distance. Insertion then takes one
-  /// thread, whatever its executor. What an erasure leaves of a surface counts anew.
+  /// Moved points may come nearer to each other than min_point_distance. What an erasure leaves of
+  /// a surface counts anew.
   int max_merged_points = 1;
   /// Surfaces in a voxel, 1 to 8: 2 for front and back, 1 for a map that does not tell sides apart.
   int max_surfaces = 2;

@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "nvm/core/executor.hpp"
 #include "nvm/core/point_access.hpp"
 #include "nvm/core/target.hpp"
 #include "nvm/geometry/pose.hpp"
@@ -63,33 +62,26 @@ class VoxelMap {
   /// Inserts `points` with their `normals` (ranges of equal length, in the frame scan) at
   /// T_map_scan (Eq. 3): p_map = T p, n_map = R n. Normals have unit length and look at the sensor.
   /// Points that cannot be stored are counted, never an error. Throws std::invalid_argument when
-  /// the lengths differ or T_map_scan is not rigid. 15 to 60 ns per point. From 65 536 points on,
-  /// which take a millisecond, `executor` may read and judge them in several threads; the map has
-  /// the same bits with any (see SerialExecutor).
-  template <class Points, class Normals, class Executor = SerialExecutor>
-  NVM_SHARED InsertStats insert(
-      const Points& points,
-      const Normals& normals,
-      const Pose& T_map_scan = Pose::Identity(),
-      const Executor& executor = {}) {
+  /// the lengths differ or T_map_scan is not rigid. 15 to 60 ns per point.
+  template <class Points, class Normals>
+  NVM_SHARED InsertStats
+  insert(const Points& points, const Normals& normals, const Pose& T_map_scan = Pose::Identity()) {
     static_assert(
         is_point_range_v<Points>, "nvm: points must be a range of points: size(), [] and x, y, z");
     static_assert(
         is_point_range_v<Normals>, "nvm: normals must be a range of 3-vectors as long as points");
-    return engine_.insert(points, normals, T_map_scan, executor);
+    return engine_.insert(points, normals, T_map_scan);
   }
 
   /// Inserts points without normals: all go to the front surface of their voxel, and only ungated
   /// queries find them. The baseline that cannot tell sides apart. Throws std::invalid_argument
   /// when T_map_scan is not rigid.
-  template <class Points, class Executor = SerialExecutor>
-  NVM_SHARED InsertStats insert_unsided(
-      const Points& points,
-      const Pose& T_map_scan = Pose::Identity(),
-      const Executor& executor = {}) {
+  template <class Points>
+  NVM_SHARED InsertStats
+  insert_unsided(const Points& points, const Pose& T_map_scan = Pose::Identity()) {
     static_assert(
         is_point_range_v<Points>, "nvm: points must be a range of points: size(), [] and x, y, z");
-    return engine_.insert_unsided(points, T_map_scan, executor);
+    return engine_.insert_unsided(points, T_map_scan);
   }
 
   // --- queries: const, noexcept, no allocation

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#pragma once
+#ifndef NVM_NORMAL_BLOCK_SEARCH_HPP  // a kernel: nvm/core/target.hpp
+#define NVM_NORMAL_BLOCK_SEARCH_HPP
 
 #include <cstddef>
 #include <cstdint>
@@ -11,8 +12,7 @@
 #include "nvm/normal/query_block.hpp"
 #include "nvm/normal/tree_items.hpp"
 
-namespace nvm::detail {
-inline namespace NVM_TARGET {
+NVM_BEGIN_DETAIL_KERNELS
 
 /// Sums the neighbourhoods of a block of queries over a BlockTree.
 ///
@@ -103,5 +103,6 @@ class BlockSearch {
   const BlockTree& tree_;
 };
 
-}  // namespace NVM_TARGET
-}  // namespace nvm::detail
+NVM_END_DETAIL_KERNELS
+
+#endif  // NVM_NORMAL_BLOCK_SEARCH_HPP

@@ -5,8 +5,6 @@
 #include <cstddef>
 
 #include "nvm/core/target.hpp"
-#include "nvm/geometry/float_lanes.hpp"
-#include "nvm/geometry/moments.hpp"
 
 namespace nvm::detail {
 inline namespace NVM_TARGET {
@@ -45,27 +43,6 @@ Cluster merge(std::size_t count, const Part& part) {
     sum.zz += p.zz + p.count * dz * dz;
   }
   return sum;
-}
-
-/// Where something is from each query, and whether it counts there: the weight is one or zero.
-struct Offset {
-  FloatLanes weight, x, y, z;
-};
-
-/// Adds a cluster whose mean lies at `d` from the query.
-inline void add_cluster(const Cluster& cluster, const Offset& d, Moments<FloatLanes>& sum) {
-  const FloatLanes count = cluster.count * d.weight;
-  const FloatLanes x = count * d.x, y = count * d.y, z = count * d.z;
-  sum.count += count;
-  sum.x += x;
-  sum.y += y;
-  sum.z += z;
-  sum.xx += cluster.xx * d.weight + x * d.x;
-  sum.xy += cluster.xy * d.weight + x * d.y;
-  sum.xz += cluster.xz * d.weight + x * d.z;
-  sum.yy += cluster.yy * d.weight + y * d.y;
-  sum.yz += cluster.yz * d.weight + y * d.z;
-  sum.zz += cluster.zz * d.weight + z * d.z;
 }
 
 }  // namespace NVM_TARGET

@@ -12,6 +12,7 @@
 #include "nvm/core/executor.hpp"
 #include "nvm/core/finite.hpp"
 #include "nvm/core/point_access.hpp"
+#include "nvm/core/processor.hpp"
 #include "nvm/core/require.hpp"
 #include "nvm/core/target.hpp"
 #include "nvm/normal/block_search.hpp"
@@ -19,9 +20,9 @@
 #include "nvm/normal/cell_grid.hpp"
 #include "nvm/normal/kd_tree_search.hpp"
 #include "nvm/normal/local_points.hpp"
+#include "nvm/normal/normal_kernels.hpp"
 #include "nvm/normal/normal_options.hpp"
 #include "nvm/normal/normal_result.hpp"
-#include "nvm/normal/plane_judge.hpp"
 #include "nvm/normal/spatial_sorter.hpp"
 
 namespace nvm {
@@ -191,21 +192,34 @@ class NormalEstimator {
       const detail::SortedPoints& queries, NormalResult& result, const Executor& executor) {
     switch (options_.method) {
       case NormalMethod::kBlockTree:
-        return solve_with(
-            detail::BlockSearch(detail::PointItems{cloud_}, tree_), queries, result, executor);
+        return solve_among_points(queries, result, executor);
       case NormalMethod::kKdTree:
 #if __has_include(<nanoflann.hpp>)
-        return solve_with(detail::KdTreeSearch(cloud_), queries, result, executor);
+        return run(
+            detail::PlaneSolver<detail::KdTreeSearch>(options_, queries, result, cloud_), executor);
 #else
         throw std::invalid_argument("nvm: method kKdTree needs nanoflann, which was not found");
 #endif
       case NormalMethod::kPerCell:
-        return solve_with(
-            detail::BlockSearch(detail::CellItems{grid_.means(), grid_.cells()}, tree_),
-            queries,
-            result,
+        return run(
+            detail::PlaneSolver<detail::BlockSearch<detail::CellItems>>(
+                options_, queries, result, detail::CellItems{grid_.means(), grid_.cells()}, tree_),
             executor);
     }
+  }
+
+  template <class Executor>
+  void solve_among_points(
+      const detail::SortedPoints& queries, NormalResult& result, const Executor& executor) const {
+#ifdef NVM_CHOOSES_KERNELS
+    if (detail::has_avx2()) {
+      using Items = for_avx2_kernels::detail::PointItems;
+      using Solver = for_avx2_kernels::detail::PointSolver;
+      return run(Solver(options_, queries, result, Items{cloud_}, tree_), executor);
+    }
+#endif
+    run(detail::PointSolver(options_, queries, result, detail::PointItems{cloud_}, tree_),
+        executor);
   }
 
   template <class Executor>
@@ -229,22 +243,11 @@ class NormalEstimator {
     });
   }
 
-  template <class Search, class Executor>
-  void solve_with(
-      const Search& search,
-      const detail::SortedPoints& queries,
-      NormalResult& result,
-      const Executor& executor) const {
-    const detail::PlaneJudge judge(options_);
-    executor.for_blocks(
-        detail::QueryBlock::count(queries), kBlockGrain, [&](std::size_t begin, std::size_t end) {
-          for (std::size_t block = begin; block < end; ++block) {
-            Moments<FloatLanes> sums;
-            const detail::QueryBlock query(queries, block);
-            search(query, sums);
-            judge(query, sums, result);
-          }
-        });
+  template <class Solver, class Executor>
+  static void run(const Solver& solver, const Executor& executor) {
+    executor.for_blocks(solver.block_count(), kBlockGrain, [&](std::size_t begin, std::size_t end) {
+      solver(begin, end);
+    });
   }
 
   // Turns the normals to their viewpoints (spec §2.3).

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#pragma once
+#ifndef NVM_NORMAL_PLANE_JUDGE_HPP  // a kernel: nvm/core/target.hpp
+#define NVM_NORMAL_PLANE_JUDGE_HPP
 
 #include <cstddef>
 #include <cstdint>
@@ -13,8 +14,7 @@
 #include "nvm/normal/normal_result.hpp"
 #include "nvm/normal/query_block.hpp"
 
-namespace nvm::detail {
-inline namespace NVM_TARGET {
+NVM_BEGIN_DETAIL_KERNELS
 
 /// From the moments of neighbourhoods to normals or to the reasons why there are none (spec §2.3
 /// and §2.4).
@@ -49,23 +49,25 @@ class PlaneJudge {
   }
 
  private:
+  static FloatLaneBits in_all_lanes(NormalStatus status) {
+    return FloatLaneBits{} + static_cast<std::int32_t>(status);
+  }
+
   // A NormalStatus per lane. The comparisons are false for NaN, which no plane has.
   FloatLaneBits judge(const FloatLanes& count, const Eigen3<FloatLanes>& eigen) const {
     const FloatLanes sum = eigen.smallest + eigen.middle + eigen.largest;
     const auto is_flat = eigen.smallest <= max_surface_variation_ * sum;
     const auto is_wide = (eigen.largest <= max_linearity_ * sum) & (sum > 0.0F);
     const auto is_many = count >= min_neighbors_;
-    const auto status = [](NormalStatus value) {
-      return FloatLaneBits{} + static_cast<std::int32_t>(value);
-    };
-    FloatLaneBits verdict = status(NormalStatus::kValid);
-    verdict = is_flat ? verdict : status(NormalStatus::kNotPlanar);
-    verdict = is_wide ? verdict : status(NormalStatus::kLineLike);
-    return is_many ? verdict : status(NormalStatus::kFewNeighbors);
+    FloatLaneBits verdict = in_all_lanes(NormalStatus::kValid);
+    verdict = is_flat ? verdict : in_all_lanes(NormalStatus::kNotPlanar);
+    verdict = is_wide ? verdict : in_all_lanes(NormalStatus::kLineLike);
+    return is_many ? verdict : in_all_lanes(NormalStatus::kFewNeighbors);
   }
 
   float min_neighbors_, max_linearity_, max_surface_variation_;
 };
 
-}  // namespace NVM_TARGET
-}  // namespace nvm::detail
+NVM_END_DETAIL_KERNELS
+
+#endif  // NVM_NORMAL_PLANE_JUDGE_HPP

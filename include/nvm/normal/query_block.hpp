@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#pragma once
+#ifndef NVM_NORMAL_QUERY_BLOCK_HPP  // a kernel: nvm/core/target.hpp
+#define NVM_NORMAL_QUERY_BLOCK_HPP
 
 #include <algorithm>
 #include <array>
@@ -13,8 +14,7 @@
 #include "nvm/geometry/float_lanes.hpp"
 #include "nvm/normal/sorted_points.hpp"
 
-namespace nvm::detail {
-inline namespace NVM_TARGET {
+NVM_BEGIN_DETAIL_KERNELS
 
 /// Squared length [m^2]: of the difference of two points, it is compared to the squared radius. A
 /// neighbour is a point with sq_length <= sq_radius, inclusive, whatever finds it.
@@ -67,5 +67,6 @@ struct BasicQueryBlock {
 
 using QueryBlock = BasicQueryBlock<FloatLanes>;
 
-}  // namespace NVM_TARGET
-}  // namespace nvm::detail
+NVM_END_DETAIL_KERNELS
+
+#endif  // NVM_NORMAL_QUERY_BLOCK_HPP

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#pragma once
+#ifndef NVM_NORMAL_TREE_ITEMS_HPP  // a kernel: nvm/core/target.hpp
+#define NVM_NORMAL_TREE_ITEMS_HPP
 
 #include <cstddef>
 #include <vector>
 
 #include "nvm/core/target.hpp"
 #include "nvm/normal/cluster.hpp"
+#include "nvm/normal/lane_sums.hpp"
 #include "nvm/normal/query_block.hpp"
 #include "nvm/normal/sorted_points.hpp"
 
-namespace nvm::detail {
-inline namespace NVM_TARGET {
+NVM_BEGIN_DETAIL_KERNELS
 
 /// Where `point` is from the queries that have it within their radius; zero for the others.
 inline Offset offset_within_radius(
@@ -51,5 +52,6 @@ struct CellItems {
   }
 };
 
-}  // namespace NVM_TARGET
-}  // namespace nvm::detail
+NVM_END_DETAIL_KERNELS
+
+#endif  // NVM_NORMAL_TREE_ITEMS_HPP

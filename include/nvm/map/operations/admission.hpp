@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#pragma once
+#ifndef NVM_MAP_OPERATIONS_ADMISSION_HPP  // a kernel: nvm/core/target.hpp
+#define NVM_MAP_OPERATIONS_ADMISSION_HPP
 
 #include <cstdint>
 #include <limits>
@@ -13,8 +14,7 @@
 #include "nvm/map/storage/pool.hpp"
 #include "nvm/map/storage/stored_normal.hpp"
 
-namespace nvm::detail {
-inline namespace NVM_TARGET {
+NVM_BEGIN_DETAIL_KERNELS
 
 /// The surface of a voxel that takes a normal.
 struct SurfaceChoice {
@@ -66,25 +66,13 @@ class Admission {
     std::uint32_t last = head;
     for (std::uint32_t id = head; id != kNone; id = chunks_[id].next) {
       IntLanes distances;
-      sq_distances(chunks_[id], point, distances);
+      detail::sq_distances(chunks_[id], point, distances);
       if (lanes_below(distances, min_sq_steps_) != 0) {
         return {Admissible::kTooClose, id};
       }
       last = id;
     }
     return {Admissible::kYes, last};
-  }
-
-  /// All of it: whether the voxel takes the point.
-  [[gnu::always_inline]] Admissible judge(
-      std::uint32_t front, const LanePoint& point, const StoredNormal& normal) const noexcept {
-    if (takes_any(front, normal)) {
-      // On a path of its own: merged with that below, the processor would have to wait for the
-      // answer before it reads the surface (20 instead of 15 ns per point).
-      return find_room(front, point).admissible;
-    }
-    const SurfaceChoice choice = choose(front, normal);
-    return choice.makes_new ? Admissible::kYes : find_room(choice.surface, point).admissible;
   }
 
  private:
@@ -130,5 +118,6 @@ class Admission {
   SurfaceRule rule_;
 };
 
-}  // namespace NVM_TARGET
-}  // namespace nvm::detail
+NVM_END_DETAIL_KERNELS
+
+#endif  // NVM_MAP_OPERATIONS_ADMISSION_HPP

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#pragma once
+#ifndef NVM_MAP_OPERATIONS_ANSWER_HPP  // a kernel: nvm/core/target.hpp
+#define NVM_MAP_OPERATIONS_ANSWER_HPP
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -12,8 +13,7 @@
 #include "nvm/map/storage/lattice.hpp"
 #include "nvm/map/storage/voxel_storage.hpp"
 
-namespace nvm::detail {
-inline namespace NVM_TARGET {
+NVM_BEGIN_DETAIL_KERNELS
 
 /// Turns what a query has found into neighbours in the map frame.
 class Answer {
@@ -55,5 +55,6 @@ class Answer {
   Eigen::Vector3d origin_;  // the query [steps]
 };
 
-}  // namespace NVM_TARGET
-}  // namespace nvm::detail
+NVM_END_DETAIL_KERNELS
+
+#endif  // NVM_MAP_OPERATIONS_ANSWER_HPP

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#pragma once
+#ifndef NVM_MAP_OPERATIONS_CANDIDATES_HPP  // a kernel: nvm/core/target.hpp
+#define NVM_MAP_OPERATIONS_CANDIDATES_HPP
 
 #include <algorithm>
 #include <array>
@@ -14,8 +15,7 @@
 #include "nvm/map/neighbor.hpp"
 #include "nvm/map/storage/lanes.hpp"
 
-namespace nvm::detail {
-inline namespace NVM_TARGET {
+NVM_BEGIN_DETAIL_KERNELS
 
 /// The points that a query has found so far, in the order in which it met them, on the stack.
 class Candidates {
@@ -126,5 +126,6 @@ class Candidates {
   int count_ = 0;
 };
 
-}  // namespace NVM_TARGET
-}  // namespace nvm::detail
+NVM_END_DETAIL_KERNELS
+
+#endif  // NVM_MAP_OPERATIONS_CANDIDATES_HPP

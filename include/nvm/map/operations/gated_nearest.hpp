@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#pragma once
+#ifndef NVM_MAP_OPERATIONS_GATED_NEAREST_HPP  // a kernel: nvm/core/target.hpp
+#define NVM_MAP_OPERATIONS_GATED_NEAREST_HPP
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -14,21 +14,13 @@
 #include "nvm/map/operations/answer.hpp"
 #include "nvm/map/operations/candidates.hpp"
 #include "nvm/map/operations/nearest_query.hpp"
+#include "nvm/map/operations/nearest_request.hpp"
 #include "nvm/map/operations/query_context.hpp"
 #include "nvm/map/storage/brick.hpp"
 #include "nvm/map/storage/lattice.hpp"
 #include "nvm/map/storage/voxel_storage.hpp"
 
-namespace nvm::detail {
-inline namespace NVM_TARGET {
-
-/// What VoxelMap::nearest() is asked, but for the normal, and where the answer goes.
-struct NearestRequest {
-  const Eigen::Vector3d& point;
-  const NearestSearch& search;
-  Neighbor* out;
-  VoxelQueryContext& context;
-};
+NVM_BEGIN_DETAIL_KERNELS
 
 /// Answers a request; how many neighbours were written.
 template <class Gate>
@@ -64,5 +56,6 @@ std::size_t gated_nearest(
   return static_cast<std::size_t>(count);
 }
 
-}  // namespace NVM_TARGET
-}  // namespace nvm::detail
+NVM_END_DETAIL_KERNELS
+
+#endif  // NVM_MAP_OPERATIONS_GATED_NEAREST_HPP

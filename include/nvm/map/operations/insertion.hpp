@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#pragma once
+#ifndef NVM_MAP_OPERATIONS_INSERTION_HPP  // a kernel: nvm/core/target.hpp
+#define NVM_MAP_OPERATIONS_INSERTION_HPP
 
 #include <cstddef>
 #include <cstdint>
 
 #include "nvm/core/target.hpp"
+#include "nvm/geometry/pose.hpp"
 #include "nvm/map/insert_stats.hpp"
 #include "nvm/map/map_options.hpp"
 #include "nvm/map/operations/admission.hpp"
@@ -20,8 +22,7 @@
 #include "nvm/map/storage/voxel_cache.hpp"
 #include "nvm/map/storage/voxel_storage.hpp"
 
-namespace nvm::detail {
-inline namespace NVM_TARGET {
+NVM_BEGIN_DETAIL_KERNELS
 
 /// Puts points into the storage by the rules of spec §3.3 to §3.5: which voxel, which of its
 /// surfaces, whether there is room, and what has to go to make room.
@@ -34,6 +35,7 @@ class Insertion {
       VoxelStorage& storage,
       VoxelCache& cache)
       : options_(options),
+        lattice_(lattice),
         gate_(gate),
         min_sq_steps_(lattice.sq_steps(options.min_point_distance)),
         admission_(options, gate.min_surface_dot, min_sq_steps_, storage.chunks()),
@@ -45,20 +47,30 @@ class Insertion {
     storage_.recency().begin_epoch();
   }
 
+  /// Brings the points of a block to the map frame, and their normals or none.
+  [[gnu::noinline]] void locate(
+      PointBlock& block, bool has_normals, const Pose& T_map_scan) const noexcept {
+    block.locate(T_map_scan, lattice_);
+    if (has_normals) {
+      block.turn_normals(T_map_scan);
+    } else {
+      block.drop_normals();
+    }
+  }
+
   /// Stores the first `count` points of the block; those without normal go to the front surface. A
   /// function of its own: among its caller's code it would run out of registers (15 instead of 13.5
   /// ns per point).
   [[gnu::noinline]] void insert(const PointBlock& block, std::size_t count) {
-    look_ahead(block, count);
+    look_ahead_.start(block, count, cache_, storage_);
     for (std::size_t i = 0; i < count; ++i) {
       insert_one(block, i);
     }
   }
 
-  /// Starts to load the voxels of the first `count` points, to make insert_one() faster.
-  void look_ahead(const PointBlock& block, std::size_t count) noexcept {
-    look_ahead_.start(block, count, cache_, storage_);
-  }
+  const InsertStats& stats() const noexcept { return stats_; }
+
+ private:
   /// Stores point `i` of the block.
   void insert_one(const PointBlock& block, std::size_t i) {
     switch (block.status(i)) {
@@ -77,16 +89,6 @@ class Insertion {
     }
   }
 
-  /// For judging points beforehand.
-  const Admission& admission() const noexcept { return admission_; }
-  /// Counts a point that its voxel rejects.
-  void reject(Admissible reason) noexcept {
-    ++(reason == Admissible::kTooClose ? stats_.too_close : stats_.surface_full);
-  }
-
-  InsertStats& stats() noexcept { return stats_; }
-
- private:
   void insert_point(const PointBlock& block, std::size_t i) {
     const IndexKey key = block.key(i);
     VoxelCache::Entry& cached = cache_[block.cache_slot(i)];
@@ -153,6 +155,10 @@ class Insertion {
     const std::uint32_t surface = storage_.create_surface(voxel, chunks_[front].wrapped(0));
     storage_.link_surface(choice.surface, surface);
     return surface;
+  }
+
+  void reject(Admissible reason) noexcept {
+    ++(reason == Admissible::kTooClose ? stats_.too_close : stats_.surface_full);
   }
 
   void add_to_surface(std::uint32_t head, const PointBlock& block, std::size_t i) {
@@ -232,6 +238,7 @@ class Insertion {
   }
 
   const MapOptions& options_;
+  const Lattice& lattice_;
   NormalGate gate_;
   std::int32_t min_sq_steps_;
   Admission admission_;
@@ -244,5 +251,6 @@ class Insertion {
   InsertStats stats_;
 };
 
-}  // namespace NVM_TARGET
-}  // namespace nvm::detail
+NVM_END_DETAIL_KERNELS
+
+#endif  // NVM_MAP_OPERATIONS_INSERTION_HPP

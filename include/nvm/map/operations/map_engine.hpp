@@ -6,11 +6,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <stdexcept>
-#include <type_traits>
 #include <utility>
 
-#include "nvm/core/executor.hpp"
 #include "nvm/core/point_access.hpp"
+#include "nvm/core/processor.hpp"
 #include "nvm/core/require.hpp"
 #include "nvm/core/target.hpp"
 #include "nvm/geometry/pose.hpp"
@@ -18,10 +17,9 @@
 #include "nvm/map/map_options.hpp"
 #include "nvm/map/neighbor.hpp"
 #include "nvm/map/operations/erasure.hpp"
-#include "nvm/map/operations/gated_nearest.hpp"
-#include "nvm/map/operations/insertion.hpp"
-#include "nvm/map/operations/nearest_query.hpp"
-#include "nvm/map/operations/parallel_insertion.hpp"
+#include "nvm/map/operations/map_kernels.hpp"
+#include "nvm/map/operations/nearest_request.hpp"
+#include "nvm/map/operations/normal_gate.hpp"
 #include "nvm/map/operations/point_block.hpp"
 #include "nvm/map/operations/traversal.hpp"
 #include "nvm/map/storage/lattice.hpp"
@@ -70,35 +68,26 @@ class MapEngine {
   VoxelStorage& storage() noexcept { return storage_; }
   std::size_t memory_limit_bytes() const noexcept { return capacity_.bytes(); }
 
-  template <class Points, class Normals, class Executor>
-  InsertStats insert(
-      const Points& points,
-      const Normals& normals,
-      const Pose& T_map_scan,
-      const Executor& executor) {
+  template <class Points, class Normals>
+  InsertStats insert(const Points& points, const Normals& normals, const Pose& T_map_scan) {
     require(points.size() == normals.size(), "normals.size()", normals.size(), "points.size()");
     const auto fill = [&](std::size_t begin, std::size_t end, PointBlock& block) {
       for (std::size_t i = begin; i < end; ++i) {
         block.set_position(i - begin, nvm::position(points[i]));
         block.set_normal(i - begin, nvm::position(normals[i]));
       }
-      block.locate(T_map_scan, lattice_);
-      block.turn_normals(T_map_scan);
     };
-    return insert_blocks(static_cast<std::size_t>(points.size()), T_map_scan, fill, executor);
+    return insert_blocks(static_cast<std::size_t>(points.size()), true, T_map_scan, fill);
   }
 
-  template <class Points, class Executor>
-  InsertStats insert_unsided(
-      const Points& points, const Pose& T_map_scan, const Executor& executor) {
+  template <class Points>
+  InsertStats insert_unsided(const Points& points, const Pose& T_map_scan) {
     const auto fill = [&](std::size_t begin, std::size_t end, PointBlock& block) {
       for (std::size_t i = begin; i < end; ++i) {
         block.set_position(i - begin, nvm::position(points[i]));
       }
-      block.locate(T_map_scan, lattice_);
-      block.drop_normals();
     };
-    return insert_blocks(static_cast<std::size_t>(points.size()), T_map_scan, fill, executor);
+    return insert_blocks(static_cast<std::size_t>(points.size()), false, T_map_scan, fill);
   }
 
   std::size_t nearest(const Eigen::Vector3f& normal, const NearestRequest& request) const noexcept {
@@ -107,12 +96,11 @@ class MapEngine {
     }
     NormalGate gate = gate_;
     gate.normal = store_normal(normal);
-    return request.search.gate == Gate::kPoints
-               ? gated_nearest(storage_, lattice_, PointGate{gate}, request)
-               : gated_nearest(storage_, lattice_, gate, request);
+    return request.search.gate == Gate::kPoints ? nearest_through(PointGate{gate}, request)
+                                                : nearest_through(gate, request);
   }
   std::size_t nearest(const NearestRequest& request) const noexcept {
-    return gated_nearest(storage_, lattice_, NoGate{}, request);
+    return nearest_through(NoGate{}, request);
   }
 
   template <class Visitor>
@@ -148,9 +136,19 @@ class MapEngine {
   }
 
  private:
-  template <class Fill, class Executor>
+  template <class Gate>
+  std::size_t nearest_through(const Gate& gate, const NearestRequest& request) const noexcept {
+#ifdef NVM_CHOOSES_KERNELS
+    if (has_avx2()) {
+      return for_avx2_kernels::detail::gated_nearest(storage_, lattice_, gate, request);
+    }
+#endif
+    return gated_nearest(storage_, lattice_, gate, request);
+  }
+
+  template <class Fill>
   InsertStats insert_blocks(
-      std::size_t size, const Pose& T_map_scan, const Fill& fill, const Executor& executor) {
+      std::size_t size, bool has_normals, const Pose& T_map_scan, const Fill& fill) {
     if (!is_rigid(T_map_scan)) {
       throw std::invalid_argument(
           "nvm: T_map_scan must be rigid: finite, with an orthonormal rotation");
@@ -158,18 +156,24 @@ class MapEngine {
     if (!storage_.has_memory()) {
       storage_ = VoxelStorage(capacity_);
     }
-    Insertion insertion(options_, lattice_, gate_, storage_, cache_);
-    std::size_t inserted = 0;
-    if constexpr (!std::is_same_v<Executor, SerialExecutor>) {
-      using Parallel = ParallelInsertion<Executor>;
-      if (size >= Parallel::kMinPoints && options_.max_merged_points == 1) {
-        inserted = Parallel(insertion, storage_, executor).insert(size, fill);
-      }
+#ifdef NVM_CHOOSES_KERNELS
+    if (has_avx2()) {
+      return insert_blocks_by<for_avx2_kernels::detail::Insertion>(
+          size, has_normals, T_map_scan, fill);
     }
+#endif
+    return insert_blocks_by<Insertion>(size, has_normals, T_map_scan, fill);
+  }
+
+  template <class Inserter, class Fill>
+  InsertStats insert_blocks_by(
+      std::size_t size, bool has_normals, const Pose& T_map_scan, const Fill& fill) {
+    Inserter insertion(options_, lattice_, gate_, storage_, cache_);
     PointBlock block;
-    for (std::size_t begin = inserted; begin < size; begin += PointBlock::kSize) {
+    for (std::size_t begin = 0; begin < size; begin += PointBlock::kSize) {
       const std::size_t end = std::min(begin + PointBlock::kSize, size);
       fill(begin, end, block);
+      insertion.locate(block, has_normals, T_map_scan);
       insertion.insert(block, end - begin);
     }
     storage_.recency().begin_epoch();  // the queries that follow are more recent

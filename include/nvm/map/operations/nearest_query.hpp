@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#pragma once
+#ifndef NVM_MAP_OPERATIONS_NEAREST_QUERY_HPP  // a kernel: nvm/core/target.hpp
+#define NVM_MAP_OPERATIONS_NEAREST_QUERY_HPP
 
 #include <algorithm>
 #include <array>
@@ -8,107 +9,20 @@
 #include <cstdint>
 
 #include "nvm/core/target.hpp"
-#include "nvm/map/map_options.hpp"
+#include "nvm/map/operations/axis_window.hpp"
 #include "nvm/map/operations/candidates.hpp"
+#include "nvm/map/operations/normal_gate.hpp"
 #include "nvm/map/storage/lanes.hpp"
 #include "nvm/map/storage/lattice.hpp"
 #include "nvm/map/storage/voxel_storage.hpp"
 
-namespace nvm::detail {
-inline namespace NVM_TARGET {
+NVM_BEGIN_DETAIL_KERNELS
 
-/// Reads every surface and every point.
-struct NoGate {
-  bool reads_surface(const PointChunk&) const { return true; }
-  bool tests_points(const PointChunk&) const { return false; }
-  std::uint32_t facing(const NormalChunk&) const { return 0xff; }
-};
-
-/// Reads the surfaces and the points whose normals agree with the query's (spec §3.6).
-struct NormalGate {
-  StoredNormal normal;
-  int min_surface_dot;
-  int min_point_dot;
-  int all_points_dot;  // a tight surface at a larger dot than this has no point to reject
-
-  bool reads_surface(const PointChunk& head) const {
-    return dot(head.direction, normal) > min_surface_dot;
-  }
-  bool tests_points(const PointChunk& head) const {
-    return head.tight == 0 || dot(head.direction, normal) <= all_points_dot;
-  }
-  std::uint32_t facing(const NormalChunk& normals) const {
-    return lanes_facing(normals, normal, min_point_dot);
-  }
-};
-
-/// The gate of a map with these options, but for the query's normal.
-inline NormalGate normal_gate(const MapOptions& options) {
-  // Two degrees cover the rounding of the two normals and of the direction.
-  constexpr double kRounding = 0.035;
-  NormalGate gate{};
-  gate.min_surface_dot = dot_threshold(options.max_surface_angle);
-  gate.min_point_dot = dot_threshold(options.max_point_angle);
-  gate.all_points_dot =
-      dot_threshold(std::max(0.0, options.max_point_angle - kTightAngle - kRounding));
-  return gate;
+/// The lanes of a chunk that a gate reads.
+inline std::uint32_t facing(const NoGate&, const NormalChunk&) { return 0xff; }
+inline std::uint32_t facing(const NormalGate& gate, const NormalChunk& normals) {
+  return detail::lanes_facing(normals, gate.normal, gate.min_point_dot);
 }
-
-/// Reads every surface, and the points whose own normals agree with the query's: a facing filter
-/// without sides.
-struct PointGate : NormalGate {
-  explicit PointGate(const NormalGate& gate) : NormalGate(gate) {}
-  bool reads_surface(const PointChunk&) const { return true; }
-};
-
-/// What lies next to a voxel along one axis, in its own brick (0) and in the one beside it (1).
-struct AxisWindow {
-  bool is_wide = false;  // reaches into the brick beside
-  // Per axis that it may be used for, and brick: the cells in the window, and the way to the brick
-  // in Brick::around.
-  std::array<std::array<std::uint64_t, 2>, 3> cells{};
-  std::array<std::array<int, 2>, 3> around_step{};
-};
-
-/// The window from place `first` to `last` of the brick that holds the voxel: -1 and 4 lie in the
-/// brick beside it.
-constexpr AxisWindow axis_window(int first, int last) {
-  constexpr std::array<int, 3> kStride{1, kBrickEdge, kBrickEdge * kBrickEdge};
-  constexpr std::array<int, 3> kAroundStride{1, 3, 9};
-  AxisWindow window;
-  window.is_wide = first < 0 || last >= kBrickEdge;
-  const std::array<int, 2> offset{0, first < 0 ? -1 : 1};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (std::size_t brick = 0; brick < 2; ++brick) {
-      window.around_step[axis][brick] = offset[brick] * kAroundStride[axis];
-      for (int cell = 0; cell < kBrickCells; ++cell) {
-        const int place = cell / kStride[axis] % kBrickEdge + kBrickEdge * offset[brick];
-        if (first <= place && place <= last) {
-          window.cells[axis][brick] |= std::uint64_t{1} << cell;
-        }
-      }
-    }
-  }
-  return window;
-}
-
-/// Windows by the voxel's place in its brick (0 to 3) and by which neighbours are wanted (bit 0:
-/// the lower, bit 1: the upper).
-inline constexpr auto kAxisWindows = [] {
-  std::array<std::array<AxisWindow, 4>, kBrickEdge> windows{};
-  for (int place = 0; place < kBrickEdge; ++place) {
-    for (int wanted = 0; wanted < 4; ++wanted) {
-      windows[static_cast<std::size_t>(place)][static_cast<std::size_t>(wanted)] =
-          axis_window(place - (wanted & 1), place + (wanted >> 1));
-    }
-  }
-  return windows;
-}();
-
-/// The bricks that windows reach into, by which of them are wide (bit 0: x, 1: y, 2: z): bit b is
-/// set for brick b, whose own bits say along which axes it lies beside.
-inline constexpr std::array<std::uint8_t, 8> kWindowBricks{
-    0x01, 0x03, 0x05, 0x0f, 0x11, 0x33, 0x55, 0xff};
 
 /// Collects the points near a query from the up to 27 voxels around it.
 template <class Gate>
@@ -210,7 +124,7 @@ class NearestQuery {
       sq_distances(chunks_[id], lanes_, distances);
       std::uint32_t mask = lanes_below(distances, limit);
       if (tests_points && mask != 0) {
-        mask &= gate_.facing(normals_[id]);
+        mask &= detail::facing(gate_, normals_[id]);
       }
       if (mask == 0) {
         continue;
@@ -234,5 +148,6 @@ class NearestQuery {
   std::array<std::array<std::int32_t, 2>, 3> sq_gap_;  // per axis: to the voxel below and above
 };
 
-}  // namespace NVM_TARGET
-}  // namespace nvm::detail
+NVM_END_DETAIL_KERNELS
+
+#endif  // NVM_MAP_OPERATIONS_NEAREST_QUERY_HPP

@@ -19,7 +19,8 @@ namespace nvm::detail {
 inline namespace NVM_TARGET {
 
 /// Up to 64 points on their way into a map, one array per quantity: transforming, flooring and
-/// rounding them in plain loops over arrays lets the compiler do four or eight at a time.
+/// rounding them in plain loops over arrays lets the compiler do four or eight at a time: the loops
+/// become part of the kernel that they are called from (nvm/core/target.hpp).
 class PointBlock {
  public:
   static constexpr std::size_t kSize = 64;
@@ -38,7 +39,7 @@ class PointBlock {
   }
 
   /// Brings the positions to the map frame (Eq. 3) and to the lattice (Eq. 4).
-  void locate(const Pose& T_map_scan, const Lattice& lattice) noexcept {
+  [[gnu::always_inline]] void locate(const Pose& T_map_scan, const Lattice& lattice) noexcept {
     const Eigen::Matrix3d R = T_map_scan.linear() * lattice.voxels_per_meter();
     const Eigen::Vector3d t = T_map_scan.translation() * lattice.voxels_per_meter();
     Axes<double> scaled;
@@ -60,7 +61,7 @@ class PointBlock {
   }
 
   /// Brings the normals to the map frame and to their stored form; to be called after locate().
-  void turn_normals(const Pose& T_map_scan) noexcept {
+  [[gnu::always_inline]] void turn_normals(const Pose& T_map_scan) noexcept {
     const Eigen::Matrix3f R = T_map_scan.linear().cast<float>();
     Axes<float> turned;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -103,7 +104,7 @@ class PointBlock {
   using Axes = std::array<Lane<T>, 3>;
 
   /// Sets the status and replaces what the lattice cannot hold by zero.
-  void judge_range(Axes<double>& scaled) noexcept {
+  [[gnu::always_inline]] void judge_range(Axes<double>& scaled) noexcept {
     status_.fill(Status::kOk);
     int inside = 1;
     for (std::size_t i = 0; i < kSize; ++i) {  // the usual case, without a branch per point
@@ -121,7 +122,7 @@ class PointBlock {
     }
   }
 
-  static void split(
+  [[gnu::always_inline]] static void split(
       const Lane<double>& scaled, Lane<std::int32_t>& voxel, Lane<std::int16_t>& wrapped) noexcept {
     for (std::size_t i = 0; i < kSize; ++i) {
       const std::int32_t floor = floor_to_int(scaled[i]);
@@ -133,7 +134,7 @@ class PointBlock {
     }
   }
 
-  void make_keys() noexcept {
+  [[gnu::always_inline]] void make_keys() noexcept {
     for (std::size_t i = 0; i < kSize; ++i) {
       key_[i] = index_key(voxel_[0][i], voxel_[1][i], voxel_[2][i]);
     }
@@ -142,7 +143,7 @@ class PointBlock {
     }
   }
 
-  void judge_normals(Axes<float>& turned) noexcept {
+  [[gnu::always_inline]] void judge_normals(Axes<float>& turned) noexcept {
     Lane<float> sq_length;
     int unit = 1;
     for (std::size_t i = 0; i < kSize; ++i) {

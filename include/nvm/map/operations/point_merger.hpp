@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#pragma once
+#ifndef NVM_MAP_OPERATIONS_POINT_MERGER_HPP  // a kernel: nvm/core/target.hpp
+#define NVM_MAP_OPERATIONS_POINT_MERGER_HPP
 
 #include <algorithm>
 #include <cstdint>
@@ -12,8 +13,7 @@
 #include "nvm/map/storage/stored_normal.hpp"
 #include "nvm/map/storage/voxel_storage.hpp"
 
-namespace nvm::detail {
-inline namespace NVM_TARGET {
+NVM_BEGIN_DETAIL_KERNELS
 
 /// Moves stored points to the mean plane of the points that were too close to be stored beside them
 /// (MapOptions::max_merged_points). In integers, so that maps do not differ between processors.
@@ -73,7 +73,7 @@ class PointMerger {
   [[gnu::noinline]] void merge_into_nearest_of(
       std::uint32_t chunk, const WrappedPoint& point, const StoredNormal& normal) noexcept {
     IntLanes distances;
-    sq_distances(storage_.chunk(chunk), LanePoint(point), distances);
+    detail::sq_distances(storage_.chunk(chunk), LanePoint(point), distances);
     const auto sq_distance = [&](int lane) {  // large where there is no point
       return static_cast<std::uint32_t>(distances[lane]);
     };
@@ -102,5 +102,6 @@ class PointMerger {
   VoxelStorage& storage_;
 };
 
-}  // namespace NVM_TARGET
-}  // namespace nvm::detail
+NVM_END_DETAIL_KERNELS
+
+#endif  // NVM_MAP_OPERATIONS_POINT_MERGER_HPP

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#pragma once
+#ifndef NVM_MAP_STORAGE_LANES_HPP  // a kernel: nvm/core/target.hpp
+#define NVM_MAP_STORAGE_LANES_HPP
 
 #include <array>
 #include <cstdint>
@@ -10,18 +11,15 @@
 #include "nvm/core/target.hpp"
 #include "nvm/map/storage/point_chunk.hpp"
 
-#if defined(__AVX2__)
+#if defined(__SSE2__)
 #include <immintrin.h>
-#elif defined(__SSE2__)
-#include <emmintrin.h>
 #endif
 
 // Arithmetic on the eight points of a chunk at once, with the vector types of GCC and Clang: SSE2,
 // AVX2 or NEON code from one source. Only what the compilers do not find by themselves is spelled
 // in instructions. Everything is exact integer arithmetic, so every variant gives the same bits
 // (tested against plain loops).
-namespace nvm::detail {
-inline namespace NVM_TARGET {
+NVM_BEGIN_DETAIL_KERNELS
 
 // Passed by reference only: by value their ABI would depend on -march.
 using IntLanes = std::int32_t __attribute__((vector_size(4 * kLanes)));
@@ -48,7 +46,7 @@ struct LanePoint {
 
 /// out[i] = pairs[2 i]^2 + pairs[2 i + 1]^2.
 [[gnu::always_inline]] inline void add_squares(const ShortPairs& pairs, IntLanes& out) {
-#if defined(__AVX2__)
+#if defined(NVM_KERNEL_AVX2)
   __m256i v;
   std::memcpy(&v, &pairs, sizeof(v));
   v = _mm256_madd_epi16(v, v);
@@ -91,7 +89,7 @@ struct LanePoint {
 /// Bit i is set when values[i], as an unsigned number, is below `limit`, which is not negative.
 [[gnu::always_inline]] inline std::uint32_t lanes_below(
     const IntLanes& values, std::int32_t limit) {
-#if defined(__AVX2__)
+#if defined(NVM_KERNEL_AVX2)
   __m256i v;
   std::memcpy(&v, &values, sizeof(v));
   const __m256i sign = _mm256_set1_epi32(std::numeric_limits<std::int32_t>::min());
@@ -109,7 +107,7 @@ struct LanePoint {
 #endif
 }
 
-#if defined(__AVX2__) && !defined(__AVX512VL__)
+#if defined(NVM_KERNEL_AVX2) && !defined(__AVX512VL__)
 /// Entry m: the set bits of m in ascending order, one byte each.
 inline constexpr auto kSetBits = [] {
   std::array<std::uint64_t, 256> table{};
@@ -135,7 +133,7 @@ inline constexpr auto kSetBits = [] {
   std::memcpy(&v, &values, sizeof(v));
   v = _mm256_maskz_compress_epi32(static_cast<__mmask8>(mask), v);
   std::memcpy(out, &v, sizeof(v));
-#elif defined(__AVX2__)
+#elif defined(NVM_KERNEL_AVX2)
   __m256i v;
   std::memcpy(&v, &values, sizeof(v));
   const __m256i order =
@@ -203,5 +201,6 @@ inline constexpr auto kSetBits = [] {
   return lanes_above(reinterpret_cast<ShortLanes>(dots), static_cast<std::int16_t>(threshold));
 }
 
-}  // namespace NVM_TARGET
-}  // namespace nvm::detail
+NVM_END_DETAIL_KERNELS
+
+#endif  // NVM_MAP_STORAGE_LANES_HPP
