@@ -17,10 +17,11 @@
 #define NVM_KERNEL_AVX2
 
 #ifdef __clang__
-#define NVM_BEGIN_AVX2                                                                      \
-  _Pragma(                                                                                  \
-      "clang attribute push(__attribute__((target(\"avx2,bmi,bmi2,popcnt\"))), apply_to = " \
-      "function)")
+// One literal: _Pragma takes no two.
+// clang-format off
+#define NVM_BEGIN_AVX2 \
+  _Pragma("clang attribute push(__attribute__((target(\"avx2,bmi,bmi2,popcnt\"))), apply_to=function)")
+// clang-format on
 #define NVM_END_AVX2 _Pragma("clang attribute pop")
 #else
 #define NVM_BEGIN_AVX2 _Pragma("GCC push_options") _Pragma("GCC target(\"avx2,bmi,bmi2,popcnt\")")
