@@ -35,9 +35,11 @@ const std::vector<Column>& columns() {
       {"points", [](const Frame& f) { return std::to_string(f.points); }},
       {"keypoints", [](const Frame& f) { return std::to_string(f.keypoints); }},
       {"residuals", [](const Frame& f) { return std::to_string(f.residuals); }},
+      {"inlier_share", [](const Frame& f) { return fmt::format("{:.4f}", f.inlier_share); }},
       {"residual_rms", [](const Frame& f) { return fmt::format("{:.6f}", f.residual_rms); }},
       {"unobserved_directions",
        [](const Frame& f) { return std::to_string(f.degenerate_directions); }},
+      {"unobserved", [](const Frame& f) { return quoted(f.unobserved.text()); }},
       {"iterations", [](const Frame& f) { return std::to_string(f.iterations); }},
       {"stored_points", [](const Frame& f) { return std::to_string(f.inserted.stored); }}};
   return kColumns;

@@ -6,9 +6,11 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/doing.hpp"
 #include "app/prior_options.hpp"
@@ -43,22 +45,27 @@ std::unique_ptr<lio::Pipeline> make_pipeline(
   return doing(making_map(pipeline.map), [&] { return lio::make_pipeline(pipeline); });
 }
 
-/// Runs `pipeline` on all scans. Each frame goes to `files` and `summary` as it is finished.
+using ScanProcess = std::function<lio::FrameResult(const lio::Scan&)>;
+
+/// Runs `process_scan` on all scans. Each frame goes to the files and `summary` as it is finished.
 Ending process(
     io::SequenceReader& reader,
-    lio::Pipeline& pipeline,
+    const ScanProcess& process_scan,
     const Interruption& interruption,
     RunFiles files,
     RunSummary& summary) {
   return use_scans(reader, interruption, [&](const lio::Scan& scan) {
-    for (const lio::ImuSample& sample : reader.imu_until(scan.t_end)) {
-      pipeline.add_imu(sample);
-    }
-    const lio::FrameResult frame = pipeline.process(scan);
+    const lio::FrameResult frame = process_scan(scan);
     summary.add(frame);
     files.add(frame);
     return lio::name(frame.status);
   });
+}
+
+void warn(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) {
+    say("warning: " + warning);
+  }
 }
 
 void run(const RunArguments& arguments, RunOptions& options) {
@@ -72,14 +79,20 @@ void run(const RunArguments& arguments, RunOptions& options) {
   announce_unfinished(results);
   const auto begin = std::chrono::steady_clock::now();
   RunSummary summary;
+  const double imu_time_offset = options.pipeline.inertial.imu_input.time_offset;
+  const auto process_scan = [&](const lio::Scan& scan) {
+    for (const lio::ImuSample& sample : reader->imu_until(scan.t_end - imu_time_offset)) {
+      pipeline->add_imu(sample);
+    }
+    return pipeline->process(scan);
+  };
   Ending ending =
-      process(*reader, *pipeline, interruption, RunFiles(results.path(), origin), summary);
+      process(*reader, process_scan, interruption, RunFiles(results.path(), origin), summary);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
   print_notes(reader->info());
+  warn(pipeline->findings());
   check_useful(summary, pipeline->map().size(), ending, arguments.input);
-  for (const std::string& warning : summary.warnings()) {
-    say("warning: " + warning);
-  }
+  warn(summary.warnings());
   attempt({results.path() + "/timing.json"}, ending, [&] {
     write_timing(results.path(), summary, wall.count());
   });

@@ -13,7 +13,7 @@ using lio::FrameResult;
 using lio::FrameStatus;
 
 bool has_pose(const FrameResult& frame) {
-  return frame.status == FrameStatus::kTracking || frame.status == FrameStatus::kWeak;
+  return lio::is_believed(frame.status) || frame.status == FrameStatus::kWeak;
 }
 
 void RunSummary::add(const FrameResult& frame) {
@@ -23,9 +23,13 @@ void RunSummary::add(const FrameResult& frame) {
   ++frames_;
   poses_ += has_pose(frame) ? 1 : 0;
   inserted_.add(frame.points, frame.inserted);
-  const bool is_open = has_pose(frame) && frame.degenerate_directions > 0;
-  usable_ += frame.status == FrameStatus::kTracking && !is_open ? 1 : 0;
-  unobserved_.add(frame.time, is_open);
+  usable_ += frame.status == FrameStatus::kTracking ? 1 : 0;
+  const bool slides = frame.status == FrameStatus::kDegenerate;
+  unobserved_.add(frame.time, slides);
+  if (slides) {
+    unobserved_along_.add(frame.unobserved.translations);
+    unobserved_about_.add(frame.unobserved.rotations);
+  }
   for (Trouble& trouble : troubles_) {
     trouble.spans.add(frame.time, frame.status == trouble.status);
     if (frame.status == trouble.status && trouble.spans.count() == 1) {
@@ -57,14 +61,23 @@ std::vector<std::string> RunSummary::warnings() const {
   }
   if (unobserved_.count() > 0) {
     warnings.push_back(fmt::format(
-        "{} of {} scans do not tell all directions of the pose, as in a tunnel, at one wall or in "
-        "the open (there the pose drifts): {}",
+        "{} of {} scans degenerate: for too long nothing has told all directions of the pose, as "
+        "in a tunnel, at one wall or in the open (there it drifts{}): {}",
         unobserved_.count(),
         frames_,
+        unobserved_directions(),
         unobserved_.describe(begin_)));
   }
   add_map_warnings(warnings);
   return warnings;
+}
+
+std::string RunSummary::unobserved_directions() const {
+  const auto text = [](const char* how, const std::optional<Eigen::Vector3d>& axis) {
+    return axis ? fmt::format("{} {}", how, lio::axis_text(*axis)) : "";
+  };
+  return text(", mostly along", unobserved_along_.axis()) +
+         text(", turning about", unobserved_about_.axis());
 }
 
 void RunSummary::add_map_warnings(std::vector<std::string>& warnings) const {
@@ -98,7 +111,7 @@ std::string RunSummary::counts() const {
   for (const Trouble& trouble : troubles_) {
     add(trouble.spans.count(), lio::name(trouble.status));
   }
-  add(unobserved_.count(), "with unobserved directions");
+  add(unobserved_.count(), lio::name(FrameStatus::kDegenerate));
   return counts;
 }
 

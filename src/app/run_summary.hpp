@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/insert_totals.hpp"
+#include "app/main_axis.hpp"
 #include "app/stages.hpp"
 #include "app/time_spans.hpp"
 #include "lio/pipeline.hpp"
@@ -25,7 +26,8 @@ class RunSummary {
   std::size_t frames() const { return frames_; }
   std::size_t poses() const { return poses_; }
 
-  /// Frames whose pose rests on their scan in all directions.
+  /// Frames whose pose rests on their scan and, where that does not tell it, on what came shortly
+  /// before.
   std::size_t usable() const { return usable_; }
 
   const InsertTotals& inserted() const { return inserted_; }
@@ -57,6 +59,7 @@ class RunSummary {
   };
 
   double mean(const StageSummary& summary) const;
+  std::string unobserved_directions() const;
   void add_map_warnings(std::vector<std::string>& warnings) const;
 
   std::size_t frames_ = 0;
@@ -69,7 +72,8 @@ class RunSummary {
        {lio::FrameStatus::kWeak, "their poses are predictions"},
        {lio::FrameStatus::kLost, "they have no pose"},
        {lio::FrameStatus::kSkipped, "they have no pose"}}};
-  TimeSpans unobserved_;
+  TimeSpans unobserved_;  ///< frames that are degenerate
+  MainAxis unobserved_along_, unobserved_about_;
   std::array<StageSummary, 7> summaries_;  ///< in the order of stages()
 };
 

@@ -89,11 +89,13 @@ PointTimeOptions message_time_options(const SequenceOptions& options) {
 
 double accel_scale(std::vector<double> norms, AccelUnit unit) {
   constexpr double kStandardGravity = 9.80665;
-  constexpr double kLimit = 3.0;  // between 1 g and 9.8 m/s^2 on a logarithmic scale
+  constexpr double kNoGravity = 0.5;  // less is noise of an IMU that gives none in either unit
+  constexpr double kLimit = 3.0;      // between 1 g and 9.8 m/s^2 on a logarithmic scale
   if (unit == AccelUnit::kAutomatic && !norms.empty()) {
     std::sort(norms.begin(), norms.end());
-    unit = norms[norms.size() / 2] < kLimit ? AccelUnit::kStandardGravity
-                                            : AccelUnit::kMetrePerSquareSecond;
+    const double norm = norms[norms.size() / 2];
+    unit = norm > kNoGravity && norm < kLimit ? AccelUnit::kStandardGravity
+                                              : AccelUnit::kMetrePerSquareSecond;
   }
   return unit == AccelUnit::kStandardGravity ? kStandardGravity : 1.0;
 }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "lio/degeneracy.hpp"
 #include "lio/keypoints.hpp"
 #include "nvm/core/require.hpp"
 
@@ -26,7 +27,8 @@ MatchResult AlignedMatcher::match(const LioMap& map, PreparedScan& scan, ErrorSt
   result.residuals = aligned.counts.valid;
   result.inlier_share = aligned.inlier_share();
   result.residual_rms = aligned.rms_distance;
-  result.degenerate_directions = aligned.degenerate_directions;
+  result.unobserved =
+      unobserved_by(aligned, mean_range(points_), filter.state().T_body_lidar.linear());
   if (result.accepted) {
     observe_lidar_pose(aligned.T_map_scan, observation_, filter);
   }

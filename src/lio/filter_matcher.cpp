@@ -23,7 +23,7 @@ MatchResult FilterMatcher::match(const LioMap& map, PreparedScan& scan, ErrorSta
       measurement_.associate(map, state);
     }
     const bool enough = measurement_.linearize(state, information);
-    result.degenerate_directions =
+    result.unobserved =
         remove_unobserved(information, measurement_.mean_range(), options_.min_observability);
     return enough;
   };

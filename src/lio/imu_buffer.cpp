@@ -43,6 +43,27 @@ std::optional<ImuSample> sample_at(const Samples& samples, double time, double m
   return held(time - previous.time < next->time - time ? previous : *next, time, max_gap);
 }
 
+/// Beyond what any IMU measures, in any unit: 5000 degrees per second, 500 g.
+bool is_implausible(const ImuSample& sample) {
+  constexpr double kMax = 5000.0;
+  return sample.gyro.norm() > kMax || sample.accel.norm() > kMax;
+}
+
+/// Whether `middle` jumps away from both its neighbours while they agree: one bad reading, no jolt.
+bool is_spike(const ImuSample& before, const ImuSample& middle, const ImuSample& after) {
+  constexpr double kMaxDuration = 0.1;    // [s]
+  constexpr double kMinGyroJump = 10.0;   // [rad/s]
+  constexpr double kMinAccelJump = 30.0;  // [m/s^2]
+  constexpr double kFactor = 8.0;
+  const auto jumps = [](const auto& a, const auto& b, const auto& c, double min_jump) {
+    const double jump = std::min((b - a).norm(), (b - c).norm());
+    return jump > std::max(min_jump, kFactor * (c - a).norm());
+  };
+  return after.time - before.time <= kMaxDuration &&
+         (jumps(before.gyro, middle.gyro, after.gyro, kMinGyroJump) ||
+          jumps(before.accel, middle.accel, after.accel, kMinAccelJump));
+}
+
 }  // namespace
 
 ImuSample interpolate(const ImuSample& a, const ImuSample& b, double time) {
@@ -55,6 +76,10 @@ void ImuBuffer::add(const ImuSample& sample) {
     ++stats_.non_finite;
     return;
   }
+  if (is_implausible(sample)) {
+    ++stats_.implausible;
+    return;
+  }
   if (sample.time < used_until_) {
     ++stats_.late;
     return;
@@ -64,8 +89,44 @@ void ImuBuffer::add(const ImuSample& sample) {
     ++stats_.repeated;
     return;
   }
-  samples_.insert(place, sample);
+  if (place != samples_.end()) {
+    samples_.insert(place, sample);
+  } else {
+    append(sample);
+  }
   ++stats_.accepted;
+}
+
+void ImuBuffer::append(const ImuSample& sample) {
+  const std::size_t size = samples_.size();
+  if (size >= 2 && samples_[size - 1].time > used_until_ &&
+      is_spike(samples_[size - 2], samples_[size - 1], sample)) {
+    samples_.pop_back();
+    ++stats_.implausible;
+    --stats_.accepted;
+  }
+  if (!samples_.empty()) {
+    note_interval(sample.time - samples_.back().time);
+  }
+  samples_.push_back(sample);
+}
+
+void ImuBuffer::note_interval(double interval) {
+  constexpr std::size_t kMaxCount = 100;
+  intervals_.push_back(interval);
+  if (intervals_.size() > kMaxCount) {
+    intervals_.pop_front();
+  }
+}
+
+double ImuBuffer::interval() const {
+  if (intervals_.empty()) {
+    return 0.0;
+  }
+  std::vector<double> sorted(intervals_.begin(), intervals_.end());
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  return *middle;
 }
 
 void ImuBuffer::between(

@@ -16,6 +16,8 @@ struct ImuBufferStats {
   std::size_t late = 0;        ///< older than what was already used, dropped
   std::size_t repeated = 0;    ///< same time as another reading, dropped
   std::size_t non_finite = 0;  ///< NaN or inf, dropped
+  /// Beyond what an IMU measures, or single readings far off both their neighbours, dropped.
+  std::size_t implausible = 0;
 };
 
 /// The recent IMU readings in order of time. Readings may arrive out of order as long as the time
@@ -36,11 +38,18 @@ class ImuBuffer {
   /// True when a reading at or after `time` [s] has arrived.
   bool covers(double time) const { return !samples_.empty() && samples_.back().time >= time; }
 
+  /// Typical time between the readings of late [s]: their median, 0 before the second.
+  double interval() const;
+
   const ImuBufferStats& stats() const { return stats_; }
 
  private:
+  void append(const ImuSample& sample);
+  void note_interval(double interval);
+
   std::deque<ImuSample> samples_;
   double used_until_ = -1e300;
+  std::deque<double> intervals_;  ///< of late [s]
   ImuBufferStats stats_;
 };
 

@@ -37,7 +37,7 @@ NavCovariance covariance_of(const InitialDeviations& deviation) {
 }
 
 constexpr InitialDeviations kStill{0.002, 0.003, 0.1, 0.012};
-constexpr InitialDeviations kMoving{1.0, 0.02, 0.2, 0.1};
+constexpr InitialDeviations kMoving{0.05, 0.01, 0.2, 0.03};
 
 /// At rest the specific force is gravity's opposite: R (a - b_a) + g = 0. That ties the bias of the
 /// accelerometer to gravity's direction, though neither is known well alone.
@@ -117,49 +117,66 @@ void ImuInitializer::add(const ImuSample& sample) {
   });
   window_.erase(window_.begin(), keep);
   state_ = still_state();
-  const double waited = sample.time - first_time_;
-  if (!state_ && options_.moving_start_after >= 0.0 && waited >= options_.moving_start_after) {
-    state_ = moving_state();
-  }
 }
 
 std::optional<InitialState> ImuInitializer::state() const { return state_; }
 
 std::optional<InitialState> ImuInitializer::still_state() {
   constexpr std::size_t kMinSamples = 10;
-  std::ostringstream why;
+  constexpr double kGravityTolerance = 0.25;
+  constexpr double kMaxDelay = 3.0;  // until there are enough readings, in still_duration
   const double span = window_.back().time - window_.front().time;
-  if (window_.size() < kMinSamples || span < 0.9 * options_.still_duration) {
-    why << "IMU initialisation needs " << options_.still_duration << " s of data";
-    why_not_ = why.str();
-    return std::nullopt;
-  }
-  const Stillness s = judge_stillness(window_, options_);
-  if (!s.still) {
+  const double waited = window_.back().time - first_time_;
+  const bool has_enough = window_.size() >= kMinSamples && span >= 0.9 * options_.still_duration;
+  const Stillness stillness = judge_stillness(window_, options_);
+  const double force = stillness.mean_accel.norm();
+  const bool is_on_earth =
+      std::abs(force - options_.gravity) <= kGravityTolerance * options_.gravity;
+  const bool moves = window_.size() >= kMinSamples && !stillness.still;
+  is_hopeless_ = options_.moving_start_after >= 0.0 &&
+                 ((moves && waited >= options_.moving_start_after) ||
+                  (has_enough && !is_on_earth) || waited > kMaxDelay * options_.still_duration);
+  std::ostringstream why;
+  if (moves) {
     why << "the sensor moves: keep it still for " << options_.still_duration << " s (rate "
-        << s.mean_gyro.norm() << " +- " << s.gyro_deviation << " rad/s, specific force +- "
-        << s.accel_deviation << " m/s^2)";
-    why_not_ = why.str();
-    return std::nullopt;
+        << stillness.mean_gyro.norm() << " +- " << stillness.gyro_deviation
+        << " rad/s, specific force +- " << stillness.accel_deviation << " m/s^2)";
+  } else if (!has_enough) {
+    why << "IMU initialisation needs " << options_.still_duration << " s of data";
+  } else if (!is_on_earth) {
+    why << "the accelerometer reads " << force << " m/s^2 at rest, not " << options_.gravity;
   }
+  why_not_ = why.str();
+  return why_not_.empty() ? std::optional<InitialState>(state_at_rest(stillness)) : std::nullopt;
+}
+
+InitialState ImuInitializer::state_at_rest(const Stillness& stillness) const {
+  const Eigen::Vector3d& force = stillness.mean_accel;
   InitialState initial;
   initial.state.time = window_.back().time;
-  initial.state.T_world_body.linear() = levelled(s.mean_accel);
-  initial.state.gyro_bias = s.mean_gyro;
-  initial.state.accel_bias = s.mean_accel * (1.0 - options_.gravity / s.mean_accel.norm());
+  initial.state.T_world_body.linear() = levelled(force);
+  initial.state.gyro_bias = stillness.mean_gyro;
+  initial.state.accel_bias = force * (1.0 - options_.gravity / force.norm());
   initial.state.gravity = {0.0, 0.0, -options_.gravity};
   initial.covariance = covariance_of(kStill);
   tie_bias_to_gravity(initial);
   return initial;
 }
 
-std::optional<InitialState> ImuInitializer::moving_state() const {
-  // Over a few seconds the sensor's own acceleration averages out in a frame that does not turn.
+Eigen::Matrix3d ImuInitializer::level() const {
+  return force_sum_.isZero() ? Eigen::Matrix3d(R_first_body_)
+                             : Eigen::Matrix3d(levelled(force_sum_) * R_first_body_);
+}
+
+InitialState moving_state(
+    const StampedPose& T_world_body,
+    const Eigen::Vector3d& velocity,
+    const Eigen::Vector3d& gravity) {
   InitialState initial;
-  initial.still = false;
-  initial.state.time = window_.back().time;
-  initial.state.T_world_body.linear() = levelled(force_sum_) * R_first_body_;
-  initial.state.gravity = {0.0, 0.0, -options_.gravity};
+  initial.state.time = T_world_body.time;
+  initial.state.T_world_body = T_world_body.pose;
+  initial.state.velocity = velocity;
+  initial.state.gravity = gravity;
   initial.covariance = covariance_of(kMoving);
   return initial;
 }
@@ -174,10 +191,10 @@ void InitializerOptions::validate() const {
   require(max_still_accel > 0.0, "max_still_accel", max_still_accel, "positive [m/s^2]");
   require(max_still_rate > 0.0, "max_still_rate", max_still_rate, "positive [rad/s]");
   require(
-      moving_start_after < 0.0 || moving_start_after >= still_duration,
+      moving_start_after < 0.0 || moving_start_after >= 0.2,
       "moving_start_after",
       moving_start_after,
-      "negative (never) or at least still_duration [s]");
+      "negative (never) or at least 0.2 [s]");
   require(gravity > 1.0 && gravity < 30.0, "gravity", gravity, "1 to 30 [m/s^2]");
 }
 

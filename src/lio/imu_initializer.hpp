@@ -8,6 +8,7 @@
 
 #include "lio/nav_state.hpp"
 #include "lio/sensor_data.hpp"
+#include "nvm/geometry/trajectory.hpp"
 
 namespace nvm::lio {
 
@@ -20,9 +21,9 @@ struct InitializerOptions {
   double max_still_gyro = 0.03;
   double max_still_accel = 0.3;
   double max_still_rate = 0.05;  ///< [rad/s]
-  /// After this long without a still moment start from the mean specific force instead, with a
-  /// correspondingly uncertain state [s]; negative: never, wait for a still moment for ever.
-  double moving_start_after = 3.0;
+  /// When the sensor moves, after this long the scans begin alone and the IMU joins them later [s],
+  /// at least 0.2; negative: never, wait for a still moment for ever.
+  double moving_start_after = 0.3;
   /// Magnitude of gravity [m/s^2].
   double gravity = 9.81;
 
@@ -46,12 +47,18 @@ Stillness judge_stillness(
 struct InitialState {
   NavState state;
   NavCovariance covariance;
-  bool still = true;  ///< false: found while moving, see moving_start_after
 };
 
 /// Moves `initial` to a map that others have begun, in which the body is at about T_map_body:
 /// gravity, velocity and what is known of them turn along, so that the map need not be level.
 void move_to(const Pose& T_map_body, InitialState& initial);
+
+/// The first state at a pose that the scans tell, `velocity` [m/s] and `gravity` [m/s^2] in the
+/// world frame.
+InitialState moving_state(
+    const StampedPose& T_world_body,
+    const Eigen::Vector3d& velocity,
+    const Eigen::Vector3d& gravity);
 
 /// Finds gravity and the gyro bias from the first IMU readings. The world frame has its origin in
 /// the first body frame, z up, and the body's initial heading as its x axis.
@@ -66,16 +73,23 @@ class ImuInitializer {
   std::optional<InitialState> state() const;
   const std::string& why_not() const { return why_not_; }
 
+  /// True when no state is to be had soon: the sensor moves, or the readings are not those of one
+  /// at rest on earth.
+  bool is_hopeless() const { return is_hopeless_; }
+  /// R_world_body with z up, by the mean specific force so far in a frame that does not turn.
+  Eigen::Matrix3d level() const;
+
  private:
   std::optional<InitialState> still_state();
-  std::optional<InitialState> moving_state() const;
+  InitialState state_at_rest(const Stillness& stillness) const;
 
   InitializerOptions options_;
-  std::vector<ImuSample> window_;  ///< the last still_duration seconds
-  double first_time_ = 0.0;
+  std::vector<ImuSample> window_;                               ///< the last still_duration seconds
   Eigen::Matrix3d R_first_body_ = Eigen::Matrix3d::Identity();  ///< by the gyro alone
   Eigen::Vector3d force_sum_ = Eigen::Vector3d::Zero();  ///< specific force x time, first frame
   std::optional<InitialState> state_;
+  double first_time_ = 0.0;
+  bool is_hopeless_ = false;
   std::string why_not_ = "no IMU data yet";
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "lio/aligned_matcher.hpp"
+#include "lio/map_agreement.hpp"
 #include "lio/plane_projection.hpp"
 #include "lio/pose_covariance.hpp"
 #include "lio/stage_timer.hpp"
@@ -33,6 +34,8 @@ const char* name(FrameStatus status) {
       return "initializing";
     case FrameStatus::kTracking:
       return "tracking";
+    case FrameStatus::kDegenerate:
+      return "degenerate";
     case FrameStatus::kWeak:
       return "weak";
     case FrameStatus::kLost:
@@ -45,27 +48,41 @@ const char* name(FrameStatus status) {
 
 InertialPipeline::InertialPipeline(
     const InertialOptions& options,
-    std::unique_ptr<LioMap> map,
     std::unique_ptr<ScanMatcher> matcher,
+    const LidarOdometryOptions& alone,
+    std::shared_ptr<LioMap> map,
     const Executor& executor)
     : options_((options.validate(), options)),
       executor_(executor),
       initializer_(options.initializer),
       normal_estimator_(options.normals),
       sampler_(options.keypoints),
-      search_(StartSearchOptions{}, executor),
+      judge_(options.imu_input, options.T_imu_lidar, options.initializer.gravity),
+      search_(std::make_shared<StartSearch>(alone.search, executor)),
       map_(std::move(map)),
-      matcher_(std::move(matcher)) {
-  if (map_->size() > 0) {
-    search_.insert(*map_->voxel_map());
-  }
+      alone_(alone, map_, search_, executor),
+      matcher_(std::move(matcher)) {}
+
+void InertialPipeline::add_imu(const ImuSample& sample) {
+  ImuSample shifted = sample;
+  shifted.time += options_.imu_input.time_offset;
+  imu_.add(shifted);
 }
 
 FrameResult InertialPipeline::process(const Scan& scan) {
   FrameResult result;
   result.time = scan.t_end;
-  if (!filter_ && !initialize(scan.t_end, result)) {
-    return result;
+  read_imu(scan.t_end);
+  if (!is_alone_ && !filter_ && !initialize(result)) {
+    if (!is_to_go_alone(scan.t_end)) {
+      return result;
+    }
+    Pose levelled = Pose::Identity();
+    levelled.linear() = initializer_.level();
+    go_alone(ConstantVelocity({scan.t_begin, start_.value_or(levelled)}));
+  }
+  if (is_alone_) {
+    return process_alone(scan);
   }
   if (scan.points.empty() || scan.t_end < filter_->state().time) {
     result.status = FrameStatus::kSkipped;
@@ -73,56 +90,35 @@ FrameResult InertialPipeline::process(const Scan& scan) {
         scan.points.empty() ? "the scan is empty" : "the scan is older than the last one";
     return result;
   }
+  is_scan_alone_ = false;
   prepare(scan, result);
+  if (!is_rigid(filter_->state().T_world_body)) {  // no reading may end a run
+    go_alone(ConstantVelocity(last_believed_));
+    return process_alone(scan);
+  }
   match(result);
   insert(result);
   result.T_map_body = filter_->state().T_world_body;
   result.T_map_lidar = filter_->state().T_world_lidar();
   describe_motion(*filter_, samples_.empty() ? nullptr : &samples_.back(), result);
+  judge_imu(result);
   return result;
 }
 
-bool InertialPipeline::initialize(double until, FrameResult& result) {
-  imu_.between(initialized_until_, until, 0.0, samples_);
-  for (const ImuSample& sample : samples_) {
-    if (sample.time <= initialized_until_) {
-      continue;
-    }
-    initializer_.add(sample);
-    initialized_until_ = sample.time;
-    if (std::optional<InitialState> initial = initializer_.state()) {
-      initial->covariance.diagonal() += extrinsic_deviations().cwiseAbs2();
-      initial->state.T_body_lidar = options_.T_imu_lidar;
-      if (start_) {
-        move_to(*start_, *initial);
-      }
-      filter_.emplace(initial->state, initial->covariance, options_.imu_noise);
-      last_believed_ = {sample.time, initial->state.T_world_body};
-      result.message = initial->still ? "" : "started while moving";
-      return true;
-    }
-  }
-  result.message = initializer_.why_not();
-  return false;
-}
-
-// The first scan makes the map where the assumed extrinsic puts it, so that in this map the body's
-// pose and gravity are as unsure as the extrinsic.
-NavVector InertialPipeline::extrinsic_deviations() const {
-  NavVector deviations = NavVector::Zero();
-  for (const NavIndex part : {kPosition, kLidarPosition}) {
-    deviations.segment<3>(part).setConstant(options_.extrinsic_translation_deviation);
-  }
-  for (const NavIndex part : {kRotation, kLidarRotation}) {
-    deviations.segment<3>(part).setConstant(options_.extrinsic_rotation_deviation);
-  }
-  deviations.segment<2>(kGravity).setConstant(options_.extrinsic_rotation_deviation);
-  return deviations;
+double InertialPipeline::max_imu_gap() const {
+  constexpr double kShortest = 0.05;  // [s]
+  constexpr double kIntervals = 4.0;
+  return options_.max_imu_gap > 0.0 ? options_.max_imu_gap
+                                    : std::max(kShortest, kIntervals * imu_.interval());
 }
 
 void InertialPipeline::predict(double until) {
   const double begin = filter_->state().time;
-  imu_.between(begin, until, options_.max_imu_gap, samples_);
+  const double max_gap = max_imu_gap();
+  imu_.between(begin, until, max_gap, samples_);
+  for (ImuSample& sample : samples_) {
+    sample = judge_.mended(sample);
+  }
   segments_.clear();
   for (const ImuSample& next : samples_) {
     const double time = filter_->state().time;
@@ -130,7 +126,7 @@ void InertialPipeline::predict(double until) {
       continue;
     }
     const ImuSample* previous = &next == samples_.data() ? nullptr : &next - 1;
-    const bool bridged = previous && next.time - previous->time <= options_.max_imu_gap;
+    const bool bridged = previous && next.time - previous->time <= max_gap;
     if (bridged) {
       segments_.push_back(filter_->predict(*previous, next));
     } else {
@@ -170,6 +166,7 @@ void InertialPipeline::believe() {
     turn_rate_ = so3_log(last_believed_.pose.linear().transpose() * now.pose.linear()) / duration;
   }
   last_believed_ = now;
+  believed_doubt_ = pose_doubt(*filter_).translation_deviation;
 }
 
 void InertialPipeline::prepare(const Scan& scan, FrameResult& result) {
@@ -198,25 +195,65 @@ void InertialPipeline::match(FrameResult& result) {
     return;
   }
   const ErrorStateFilter predicted = *filter_;
-  const bool is_sure = pose_doubt(*filter_).translation_deviation < kMaxDoubt;
+  const bool is_sure = doubt_since_believed() < kMaxDoubt;
   if (!is_sure) {
     find_again();
   }
   const MatchResult match = matcher_->match(*map_, prepared_, *filter_);
   result.residuals = match.residuals;
   result.residual_rms = match.residual_rms;
-  result.degenerate_directions = match.degenerate_directions;
+  result.inlier_share = match.inlier_share;
+  result.unobserved = match.unobserved;
+  result.degenerate_directions = match.unobserved.count();
   result.iterations = match.iterations;
-  if (match.accepted && match.inlier_share >= options_.min_inlier_share &&
-      (is_sure || fits_well(match, result.keypoints))) {
-    result.status = FrameStatus::kTracking;
+  if (match.accepted && (is_sure ? agrees_with_map(match) : fits_well(match, result.keypoints))) {
     believe();
+    result.status = FrameStatus::kTracking;
+    if (is_adrift(result.unobserved)) {
+      result.status = FrameStatus::kDegenerate;
+      result.message = "the scan does not tell the pose " + result.unobserved.text();
+    }
     return;
   }
   *filter_ = predicted;
   const bool lost = result.time - last_believed_.time > options_.max_weak_duration;
   result.status = lost ? FrameStatus::kLost : FrameStatus::kWeak;
-  result.message = "too little of the scan fits the map";
+  result.message = kTooLittleFits;
+}
+
+// What corridors leave open grows with the way, and no search in the map would close it.
+double InertialPipeline::doubt_since_believed() const {
+  const double now = pose_doubt(*filter_).translation_deviation;
+  return std::sqrt(std::max(0.0, now * now - believed_doubt_ * believed_doubt_));
+}
+
+bool InertialPipeline::is_adrift(const UnobservedDirections& unobserved) const {
+  constexpr double kMaxTurnDoubt = 0.05;  // [rad]
+  const NavCovariance& P = filter_->covariance();
+  const auto is_open = [&](NavIndex part, const Eigen::Vector3d& direction, double limit) {
+    return direction.dot(P.block<3, 3>(part, part) * direction) > limit * limit;
+  };
+  const auto& [translations, rotations] = unobserved;
+  return std::any_of(
+             translations.begin(),
+             translations.end(),
+             [&](const auto& direction) { return is_open(kPosition, direction, kMaxDoubt); }) ||
+         std::any_of(rotations.begin(), rotations.end(), [&](const auto& axis) {
+           return is_open(kRotation, axis, kMaxTurnDoubt);
+         });
+}
+
+// Of a sure pose few keypoints may fit, as long as the others lie where the map ends.
+bool InertialPipeline::agrees_with_map(const MatchResult& match) const {
+  constexpr double kMostly = 0.8;
+  const double inliers = match.inlier_share * static_cast<double>(key_points_.size());
+  const double share = inliers / static_cast<double>(std::max<std::size_t>(1, match.residuals));
+  if (match.inlier_share >= options_.min_inlier_share) {
+    return share >= options_.min_inlier_share;
+  }
+  return share >= kMostly &&
+         judge_agreement(*map_, key_points_, key_normals_, filter_->state().T_world_lidar())
+                 .share() >= options_.min_inlier_share;
 }
 
 // The map's voxels reach no farther than their size, a coarse map's do.
@@ -224,19 +261,19 @@ void InertialPipeline::find_again() {
   const NavState predicted = filter_->state();
   const std::vector<Pose> guesses = {
       predicted.T_world_lidar(), last_believed_.pose * predicted.T_body_lidar};
-  const std::vector<Pose> found = search_.search(key_points_, key_normals_, guesses);
+  const std::vector<Pose> found = search_->search(key_points_, key_normals_, guesses);
   observe_lidar_pose(found.front(), kFoundAgain, *filter_);
   correct_deskew(predicted, filter_->state(), prepared_.scan);
 }
 
 void InertialPipeline::insert(FrameResult& result) {
-  if (result.status != FrameStatus::kTracking || map_->is_frozen()) {
+  if (!is_believed(result.status) || map_->is_frozen()) {
     return;
   }
   const StageTimer timer(result.times.map_update);
   const Pose T_map_lidar = filter_->state().T_world_lidar();
   result.inserted = map_->insert(prepared_.scan.points, prepared_.normals, T_map_lidar);
-  search_.insert(key_points_, key_normals_, T_map_lidar);
+  search_->insert(key_points_, key_normals_, T_map_lidar);
 }
 
 void InertialOptions::validate() const {
@@ -248,7 +285,7 @@ void InertialOptions::validate() const {
   const auto not_negative = [](double value, const char* key) {
     require(value >= 0.0 && std::isfinite(value), key, value, "0 or more");
   };
-  require(max_imu_gap > 0.0, "max_imu_gap", max_imu_gap, "positive [s]");
+  not_negative(max_imu_gap, "max_imu_gap");
   require(
       min_inlier_share >= 0.0 && min_inlier_share <= 1.0,
       "min_inlier_share",

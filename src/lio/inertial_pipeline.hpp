@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The nvm authors
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -11,7 +12,9 @@
 #include "lio/executor.hpp"
 #include "lio/imu_buffer.hpp"
 #include "lio/imu_initializer.hpp"
+#include "lio/imu_judge.hpp"
 #include "lio/keypoints.hpp"
+#include "lio/lidar_odometry.hpp"
 #include "lio/pipeline.hpp"
 #include "lio/scan_matcher.hpp"
 #include "lio/start_search.hpp"
@@ -22,10 +25,12 @@ namespace nvm::lio {
 
 /// What the inertial pipelines share.
 struct InertialOptions {
+  ImuInputOptions imu_input;
   InitializerOptions initializer;
   ImuNoise imu_noise;
-  /// IMU readings farther apart than this [s] are a gap, which is bridged at constant velocity.
-  double max_imu_gap = 0.05;
+  /// IMU readings farther apart than this [s] are a gap, which is bridged at constant velocity. 0:
+  /// four times what is usual in the stream, and at least 0.05 s.
+  double max_imu_gap = 0.0;
   ReturnLimits returns;
   NormalOptions normals;
   /// Points are moved onto the plane of their neighbourhood by at most this [m], 0 or more; with 0
@@ -47,28 +52,41 @@ struct InertialOptions {
 /// The frame of both inertial pipelines: initialise from the IMU, predict to the scan's end,
 /// deskew, estimate normals on the deskewed scan with the LiDAR's place at each point's time,
 /// match, and insert what was believed. The ScanMatcher makes it FAST-LIO style or CT-LIO style.
+///
+/// While the IMU cannot be used the scans go their way alone, in the same map: at a start in
+/// motion, before its readings begin, after the pose was lost, and for good when an ImuJudge finds
+/// that it contradicts them. It joins, and joins again, once both tell the same motion.
 class InertialPipeline final : public Pipeline {
  public:
   InertialPipeline(
       const InertialOptions& options,
-      std::unique_ptr<LioMap> map,
       std::unique_ptr<ScanMatcher> matcher,
+      const LidarOdometryOptions& alone,
+      std::shared_ptr<LioMap> map,
       const Executor& executor);
 
-  void add_imu(const ImuSample& sample) override { imu_.add(sample); }
+  void add_imu(const ImuSample& sample) override;
   FrameResult process(const Scan& scan) override;
   const LioMap& map() const override { return *map_; }
-  const DeskewedScan& scan() const override { return prepared_.scan; }
-  const std::vector<Eigen::Vector3f>& normals() const override { return prepared_.normals; }
+  const DeskewedScan& scan() const override;
+  const std::vector<Eigen::Vector3f>& normals() const override;
   void start_at(const Pose& T_map_body) override { start_ = T_map_body; }
+  std::vector<std::string> findings() const override;
 
   /// The filter, once initialised.
   const std::optional<ErrorStateFilter>& filter() const { return filter_; }
   const ImuBufferStats& imu_stats() const { return imu_.stats(); }
 
  private:
-  bool initialize(double until, FrameResult& result);
+  void read_imu(double until);
+  bool initialize(FrameResult& result);
+  bool is_to_go_alone(double time);
+  void go_alone(const ConstantVelocity& motion);
+  FrameResult process_alone(const Scan& scan);
+  void join_imu(const MotionFit& motion);
+  void judge_imu(const FrameResult& result);
   NavVector extrinsic_deviations() const;
+  double max_imu_gap() const;
   void predict(double until);
   void coast(double until);
   void use_rest();
@@ -76,6 +94,9 @@ class InertialPipeline final : public Pipeline {
   void prepare(const Scan& scan, FrameResult& result);
   void match(FrameResult& result);
   void find_again();
+  double doubt_since_believed() const;
+  bool is_adrift(const UnobservedDirections& unobserved) const;
+  bool agrees_with_map(const MatchResult& match) const;
   void insert(FrameResult& result);
 
   InertialOptions options_;
@@ -84,15 +105,26 @@ class InertialPipeline final : public Pipeline {
   ImuInitializer initializer_;
   NormalEstimator normal_estimator_;
   KeypointSampler sampler_;
-  StartSearch search_;
-  std::unique_ptr<LioMap> map_;
+  ImuJudge judge_;
+  std::shared_ptr<StartSearch> search_;
+  std::shared_ptr<LioMap> map_;
+  LidarOdometry alone_;
+  bool is_alone_ = false;
+  bool is_scan_alone_ = false;  ///< the last scan was taken by alone_
+  bool is_imu_usable_ = true;
+  double slid_time_ = -1e300;  ///< of the last scan alone that left directions open [s]
+  double join_after_ = 1.0;    ///< so long must it tell the motion of the scans [s]
   std::unique_ptr<ScanMatcher> matcher_;
   std::optional<Pose> start_;  ///< T_map_body in a map that others have begun
   std::optional<ErrorStateFilter> filter_;
-  double initialized_until_ = -1e300;  ///< time of the last reading given to the initializer [s]
-  StampedPose last_believed_;          ///< of the last frame that was
+  double read_until_ = -1e300;                           ///< time of the last reading taken [s]
+  std::optional<double> first_time_;                     ///< of a scan [s]
+  StampedPose last_believed_;                            ///< of the last frame that was
+  double believed_doubt_ = 0.0;                          ///< of its place [m]
+  std::size_t believed_ = 0;                             ///< frames since the IMU joined
   Eigen::Vector3d turn_rate_ = Eigen::Vector3d::Zero();  ///< by the LiDAR [rad/s], body frame
   // Kept for their memory.
+  std::deque<ImuSample> unread_;  ///< by the initializer
   std::vector<ImuSample> samples_;
   std::vector<MotionSegment> segments_;
   PreparedScan prepared_;

@@ -54,6 +54,14 @@ void KeypointOptions::validate() const {
   require(max_count >= 10 && max_count <= 100'000, "max_keypoints", max_count, "10 to 100000");
 }
 
+double mean_range(const std::vector<Eigen::Vector3f>& points) {
+  double sum = 0.0;
+  for (const Eigen::Vector3f& point : points) {
+    sum += static_cast<double>(point.norm());
+  }
+  return points.empty() ? 0.0 : sum / static_cast<double>(points.size());
+}
+
 void pick(
     const std::vector<Eigen::Vector3f>& all,
     const std::vector<std::uint32_t>& indices,

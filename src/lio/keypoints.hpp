@@ -38,6 +38,9 @@ class KeypointSampler {
   std::vector<std::uint32_t> chosen_;
 };
 
+/// Mean distance of `points` [m] from their origin; 0 without any.
+double mean_range(const std::vector<Eigen::Vector3f>& points);
+
 /// Makes `picked` the elements of `all` at `indices`.
 void pick(
     const std::vector<Eigen::Vector3f>& all,

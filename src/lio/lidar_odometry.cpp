@@ -7,9 +7,9 @@
 #include <limits>
 #include <utility>
 
+#include "lio/degeneracy.hpp"
 #include "lio/pose_covariance.hpp"
 #include "lio/stage_timer.hpp"
-#include "nvm/core/require.hpp"
 
 namespace nvm::lio {
 
@@ -25,18 +25,29 @@ bool is_sweep(const DeskewedScan& scan) {
 }  // namespace
 
 LidarOdometry::LidarOdometry(
-    const LidarOdometryOptions& options, std::unique_ptr<LioMap> map, const Executor& executor)
+    const LidarOdometryOptions& options, std::shared_ptr<LioMap> map, const Executor& executor)
+    : LidarOdometry(
+          options,
+          std::move(map),
+          std::make_shared<StartSearch>(options.search, executor),
+          executor) {}
+
+LidarOdometry::LidarOdometry(
+    const LidarOdometryOptions& options,
+    std::shared_ptr<LioMap> map,
+    std::shared_ptr<StartSearch> search,
+    const Executor& executor)
     : options_((options.validate(), options)),
       executor_(executor),
       normal_estimator_(options.normals),
       sampler_(options.keypoints),
       aligner_(options.align),
-      search_(options.search, executor),
+      search_(std::move(search)),
       map_(std::move(map)) {
   predicted_.T_body_lidar = options.T_body_lidar;
   predicted_.time = -std::numeric_limits<double>::infinity();
   if (map_->size() > 0) {
-    search_.insert(*map_->voxel_map());
+    search_->insert(*map_->voxel_map());
   }
 }
 
@@ -46,16 +57,75 @@ void LidarOdometry::start_at(const Pose& T_map_body) {
   motion_.emplace(StampedPose{kLongAgo, T_map_body});
 }
 
+void LidarOdometry::continue_from(const ConstantVelocity& motion) {
+  motion_ = motion;
+  predicted_.time = motion.last().time;
+  observed_time_ = motion.last().time;
+}
+
 FrameResult LidarOdometry::process(const Scan& scan) {
   FrameResult result;
   result.time = scan.t_end;
   if (!is_usable(scan, result)) {
     return result;
   }
+  follow(scan, result);
+  const bool is_badly_begun = began_map_ && in_own_map_ <= 1;
+  const bool sees_enough = result.keypoints >= options_.align.min_residuals;
+  if (result.status == FrameStatus::kLost && is_badly_begun && sees_enough) {
+    begin_map_again(motion_->last().pose);
+    result.message = "";
+    follow(scan, result);
+    result.message = "the map begins again: its first scan fits none of the others";
+  } else if (began_map_ && is_believed(result.status)) {
+    settle_first(scan, result);
+  }
+  return result;
+}
+
+void LidarOdometry::follow(const Scan& scan, FrameResult& result) {
   const Normals& normals = prepare(scan, result);
   match(normals, result);
   insert(normals, result);
-  return result;
+}
+
+void LidarOdometry::begin_map_again(const Pose& T_map_body) {
+  map_->clear();
+  search_->clear();
+  motion_.emplace(StampedPose{predicted_.time, T_map_body});
+  in_own_map_ = 0;
+}
+
+// Until the second scan nothing tells how the first one moved.
+void LidarOdometry::settle_first(const Scan& scan, FrameResult& result) {
+  constexpr int kRounds = 2;
+  if (in_own_map_ == 1) {
+    first_ = scan;
+    first_pose_ = result.T_map_body;
+  } else if (first_) {
+    for (int i = 0; i < kRounds && is_believed(result.status) && deskew_first(result); ++i) {
+      follow(scan, result);
+    }
+    first_.reset();
+  }
+}
+
+// Begins the map again with the first scan, deskewed by the motion to the second. False at rest.
+bool LidarOdometry::deskew_first(const FrameResult& second) {
+  constexpr double kMinMotion = 0.01;  // [m]
+  constexpr double kMinTurn = 0.005;   // [rad]
+  const Pose step = first_pose_.inverse() * second.T_map_body;
+  if (step.translation().norm() < kMinMotion && so3_log(step.linear()).norm() < kMinTurn) {
+    return false;
+  }
+  const double duration = second.time - first_->t_end;
+  begin_map_again(first_pose_);
+  motion_.emplace(StampedPose{first_->t_end - duration, first_pose_ * step.inverse()});
+  motion_->add({first_->t_end, first_pose_});
+  FrameResult again;
+  again.time = first_->t_end;
+  follow(*first_, again);
+  return is_believed(again.status);
 }
 
 bool LidarOdometry::is_usable(const Scan& scan, FrameResult& result) const {
@@ -99,8 +169,10 @@ void LidarOdometry::match(const Normals& normals, FrameResult& result) {
   choose_keypoints(normals);
   result.keypoints = key_points_.size();
   result.T_map_lidar = predicted_.T_world_lidar();
-  if (!motion_) {
+  if (map_->size() == 0) {
     const bool enough = key_points_.size() >= options_.align.min_residuals;
+    observed_time_ = result.time;
+    began_map_ = true;
     result.status = enough ? FrameStatus::kTracking : FrameStatus::kInitializing;
     result.message = enough ? "" : "the scan shows too few surfaces to begin with";
     return;
@@ -112,17 +184,32 @@ void LidarOdometry::match(const Normals& normals, FrameResult& result) {
   }
   result.residuals = aligned.counts.valid;
   result.residual_rms = aligned.rms_distance;
-  result.degenerate_directions = aligned.degenerate_directions;
+  result.inlier_share = aligned.inlier_share();
+  result.unobserved =
+      unobserved_by(aligned, mean_range(key_points_), options_.T_body_lidar.linear());
+  result.degenerate_directions = result.unobserved.count();
   result.iterations = aligned.iterations;
   if (is_believable(aligned)) {
-    result.status = FrameStatus::kTracking;
     result.T_map_lidar = aligned.T_map_scan;
     result.pose_covariance = covariance_of(aligned, options_.T_body_lidar);
+    describe_directions(result);
     return;
   }
   const bool lost = result.time - motion_->last().time > options_.max_weak_duration;
   result.status = lost ? FrameStatus::kLost : FrameStatus::kWeak;
-  result.message = "too little of the scan fits the map";
+  result.message = kTooLittleFits;
+}
+
+// Where the scan does not tell it the motion goes on as before, which it does not do for long.
+void LidarOdometry::describe_directions(FrameResult& result) {
+  if (result.unobserved.empty()) {
+    observed_time_ = result.time;
+  }
+  const bool is_adrift = result.time - observed_time_ > options_.max_weak_duration;
+  result.status = is_adrift ? FrameStatus::kDegenerate : FrameStatus::kTracking;
+  if (is_adrift) {
+    result.message = "the scan does not tell the pose " + result.unobserved.text();
+  }
 }
 
 void LidarOdometry::choose_keypoints(const Normals& normals) {
@@ -168,8 +255,8 @@ AlignResult LidarOdometry::align(const Normals& normals) {
   const Pose predicted = predicted_.T_world_lidar();
   const Pose standing_still = motion_->last().pose * options_.T_body_lidar;
   const std::vector<Pose> near = {predicted, standing_still};
-  if (!convinced_by({predicted}) && !convinced_by(search_.search(scan_.points, normals, near))) {
-    convinced_by(search_.search(scan_.points, normals, search_.turned(near)));
+  if (!convinced_by({predicted}) && !convinced_by(search_->search(scan_.points, normals, near))) {
+    convinced_by(search_->search(scan_.points, normals, search_->turned(near)));
   }
   return best;
 }
@@ -190,48 +277,24 @@ void LidarOdometry::insert(const Normals& normals, FrameResult& result) {
   const Pose T_map_body = result.T_map_lidar * options_.T_body_lidar.inverse();
   result.T_map_body = T_map_body;
   describe_prediction(predicted_, motion_ ? result.time - motion_->last().time : 0.0, result);
-  if (result.status != FrameStatus::kTracking) {
+  if (!is_believed(result.status)) {
     return;
   }
   const StageTimer timer(result.times.map_update);
   const StampedPose pose{result.time, T_map_body};
-  if (motion_) {
-    motion_->add(pose);
-  } else {
+  if (!motion_) {
     motion_.emplace(pose);
+  } else if (pose.time > motion_->last().time) {
+    motion_->add(pose);
   }
   result.velocity = motion_->velocity();
   result.angular_rate = motion_->rate();
+  ++in_own_map_;
   if (map_->is_frozen()) {
     return;
   }
   result.inserted = map_->insert(scan_.points, normals, result.T_map_lidar);
-  search_.insert(scan_.points, normals, result.T_map_lidar);
-}
-
-void LidarOdometryOptions::validate() const {
-  returns.validate();
-  normals.validate();
-  keypoints.validate();
-  align.validate();
-  search.validate();
-  require(
-      min_confident_share >= 0.0 && min_confident_share <= 1.0,
-      "min_confident_share",
-      min_confident_share,
-      "0 to 1");
-  require(max_confident_motion > 0.0, "max_confident_motion", max_confident_motion, "positive [m]");
-  require(
-      min_inlier_share >= 0.0 && min_inlier_share <= 1.0,
-      "min_inlier_share",
-      min_inlier_share,
-      "0 to 1");
-  require(
-      max_weak_duration >= 0.0 && std::isfinite(max_weak_duration),
-      "max_weak_duration",
-      max_weak_duration,
-      "0 or more [s]");
-  require(is_rigid(T_body_lidar), "T_body_lidar", "given", "a rigid transform");
+  search_->insert(scan_.points, normals, result.T_map_lidar);
 }
 
 }  // namespace nvm::lio

@@ -27,7 +27,17 @@ class LidarOdometry final : public Pipeline {
  public:
   /// Throws std::invalid_argument for bad options.
   LidarOdometry(
-      const LidarOdometryOptions& options, std::unique_ptr<LioMap> map, const Executor& executor);
+      const LidarOdometryOptions& options, std::shared_ptr<LioMap> map, const Executor& executor);
+  /// With a coarse map of the same scans that others use too, like `map`.
+  LidarOdometry(
+      const LidarOdometryOptions& options,
+      std::shared_ptr<LioMap> map,
+      std::shared_ptr<StartSearch> search,
+      const Executor& executor);
+
+  /// The motion before the next scan, for a map that others have begun or a start that is not the
+  /// identity.
+  void continue_from(const ConstantVelocity& motion);
 
   void add_imu(const ImuSample& /*sample*/) override {}
   FrameResult process(const Scan& scan) override;
@@ -42,7 +52,12 @@ class LidarOdometry final : public Pipeline {
   bool is_usable(const Scan& scan, FrameResult& result) const;
   void predict(const Scan& scan);
   const Normals& prepare(const Scan& scan, FrameResult& result);
+  void follow(const Scan& scan, FrameResult& result);
+  void begin_map_again(const Pose& T_map_body);
+  void settle_first(const Scan& scan, FrameResult& result);
+  bool deskew_first(const FrameResult& second);
   void match(const Normals& normals, FrameResult& result);
+  void describe_directions(FrameResult& result);
   void choose_keypoints(const Normals& normals);
   AlignResult align(const Normals& normals);
   AlignResult refine(const Normals& normals, const AlignResult& first);
@@ -55,10 +70,15 @@ class LidarOdometry final : public Pipeline {
   NormalEstimator normal_estimator_;
   KeypointSampler sampler_;
   ScanAligner<LioMap> aligner_;
-  StartSearch search_;
-  std::unique_ptr<LioMap> map_;
+  std::shared_ptr<StartSearch> search_;
+  std::shared_ptr<LioMap> map_;
   std::optional<ConstantVelocity> motion_;  // of the body; nothing before the first believed scan
   NavState predicted_;                      // at the end of the scan in work
+  double observed_time_ = 0.0;  // of the last believed frame that told all directions [s]
+  std::optional<Scan> first_;   // of the map, until the second tells how it moved
+  Pose first_pose_;             // T_map_body of it
+  std::size_t in_own_map_ = 0;  // scans, since this began the map
+  bool began_map_ = false;
   // Kept for their memory.
   std::vector<MotionSegment> segments_;
   DeskewedScan scan_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #if __has_include(<nanoflann.hpp>)
@@ -47,6 +48,7 @@ class VoxelLioMap : public LioMap {
     return map_.nearest(point, normal, search, out, context);
   }
 
+  void clear() override { map_.clear(); }
   std::size_t size() const override { return map_.size(); }
   std::size_t memory_bytes() const override { return map_.memory_bytes(); }
   std::vector<MapPoint> points() const override { return map_.points(); }
@@ -143,10 +145,11 @@ class RejectLioMap final : public VoxelLioMap {
 #ifdef NVM_HAS_KD_TREE_MAP
 class KdTreeLioMap final : public LioMap {
  public:
-  explicit KdTreeLioMap(const MapOptions& options) : map_(options.min_point_distance) {}
+  explicit KdTreeLioMap(const MapOptions& options)
+      : min_point_distance_(options.min_point_distance), map_(min_point_distance_) {}
 
   InsertStats insert(const Points& points, const Points& normals, const Pose& T_map_scan) override {
-    InsertStats stats = map_.insert_unsided(with_normal(points, normals, kept_), T_map_scan);
+    InsertStats stats = map_->insert_unsided(with_normal(points, normals, kept_), T_map_scan);
     stats.no_normal = points.size() - kept_.size();
     return stats;
   }
@@ -160,24 +163,26 @@ class KdTreeLioMap final : public LioMap {
       Neighbor* out,
       QueryContext& /*context*/) const noexcept override {
     KdTreeMap::QueryContext context;
-    return map_.nearest(point, normal, search, out, context);
+    return map_->nearest(point, normal, search, out, context);
   }
 
-  std::size_t size() const override { return map_.size(); }
+  void clear() override { map_.emplace(min_point_distance_); }
+  std::size_t size() const override { return map_->size(); }
   std::size_t memory_bytes() const override {
     // Positions, and the tree's indices and nodes.
-    return map_.size() * (sizeof(Eigen::Vector3d) + 2 * sizeof(std::uint64_t));
+    return map_->size() * (sizeof(Eigen::Vector3d) + 2 * sizeof(std::uint64_t));
   }
   std::vector<MapPoint> points() const override {
     std::vector<MapPoint> points;
-    for (const Eigen::Vector3d& position : map_.points()) {
+    for (const Eigen::Vector3d& position : map_->points()) {
       points.push_back({position, Eigen::Vector3f::Zero(), 0});
     }
     return points;
   }
 
  private:
-  KdTreeMap map_;
+  double min_point_distance_;  // [m]
+  std::optional<KdTreeMap> map_;
   Points kept_;
 };
 #endif

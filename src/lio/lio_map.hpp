@@ -37,6 +37,7 @@ class LioMap {
       Neighbor* out,
       QueryContext& context) const noexcept = 0;
 
+  virtual void clear() = 0;
   virtual std::size_t size() const = 0;  ///< points
   virtual std::size_t memory_bytes() const = 0;
   virtual std::vector<MapPoint> points() const = 0;

@@ -10,6 +10,7 @@
 #include "lio/deskew.hpp"
 #include "lio/lio_map.hpp"
 #include "lio/sensor_data.hpp"
+#include "lio/unobserved_directions.hpp"
 #include "nvm/geometry/pose.hpp"
 #include "nvm/map/insert_stats.hpp"
 
@@ -18,12 +19,23 @@ namespace nvm::lio {
 enum class FrameStatus {
   kInitializing,  ///< no pose yet, see FrameResult::message
   kTracking,      ///< the pose fits the map; the scan went into the map
+  kDegenerate,    ///< the same, but along FrameResult::unobserved nothing has told it for too long
   kWeak,          ///< too little of the scan fits: the pose is the prediction, the map is unchanged
   kLost,          ///< weak for longer than max_weak_duration: do not trust the pose
   kSkipped,       ///< the scan is empty or older than the last one
 };
 
 const char* name(FrameStatus status);
+
+/// Whether the pose fits the map as far as the scan tells.
+inline bool is_believed(FrameStatus status) {
+  return status == FrameStatus::kTracking || status == FrameStatus::kDegenerate;
+}
+
+/// FrameResult::message of frames that are weak or lost, with what to try.
+inline constexpr const char* kTooLittleFits =
+    "too little of the scan fits the map: try larger map.voxel_size in wide surroundings, check "
+    "input.T_imu_lidar and the times of points and IMU";
 
 /// CPU time of the whole process that each stage of a frame took [ms].
 struct StageTimes {
@@ -53,9 +65,11 @@ struct FrameResult {
   Covariance6 twist_covariance = Covariance6::Zero();      ///< of velocity and angular_rate
   std::size_t points = 0;                                  ///< returns used
   std::size_t keypoints = 0;
-  std::size_t residuals = 0;      ///< keypoints that found their surface in the map
-  double residual_rms = 0.0;      ///< [m]
-  int degenerate_directions = 0;  ///< of the pose's six, that the scan does not tell
+  std::size_t residuals = 0;        ///< keypoints that found their surface in the map
+  double inlier_share = 0.0;        ///< of the keypoints: those that fit the map, 0 to 1
+  double residual_rms = 0.0;        ///< [m]
+  int degenerate_directions = 0;    ///< of the pose's six, that the scan does not tell
+  UnobservedDirections unobserved;  ///< these directions
   int iterations = 0;
   InsertStats inserted;
   StageTimes times;
@@ -84,6 +98,10 @@ class Pipeline {
   /// Says where the body is in a map that others have begun, at the end of the next scan: about, as
   /// far as scans can be aligned. Only before the first pose.
   virtual void start_at(const Pose& T_map_body) = 0;
+
+  /// What is wrong, or was mended, in the data as a whole. One line each: what was seen, what it
+  /// usually means, what mends it.
+  virtual std::vector<std::string> findings() const { return {}; }
 };
 
 }  // namespace nvm::lio

@@ -80,8 +80,10 @@ std::unique_ptr<Pipeline> make_pipeline(
   if (options.type == PipelineType::kLidarOnly) {
     return std::make_unique<LidarOdometry>(lidar_only_options(options), std::move(map), executor);
   }
+  LidarOdometryOptions alone = lidar_only_options(options);
+  alone.max_weak_duration = options.inertial.max_weak_duration;
   return std::make_unique<InertialPipeline>(
-      options.inertial, std::move(map), make_matcher(options, executor), executor);
+      options.inertial, make_matcher(options, executor), alone, std::move(map), executor);
 }
 
 }  // namespace nvm::lio

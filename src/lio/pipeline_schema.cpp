@@ -80,7 +80,15 @@ void bind_imu(Schema& schema, InertialOptions& inertial) {
   schema.add("accel_noise", noise.accel, kPositive, "[m/s^2/sqrt(Hz)]");
   schema.add("gyro_bias_walk", noise.gyro_bias, kPositive, "[rad/s^2/sqrt(Hz)]");
   schema.add("accel_bias_walk", noise.accel_bias, kPositive, "[m/s^3/sqrt(Hz)]");
-  schema.add("max_gap", inertial.max_imu_gap, kPositive, "Longest time between readings [s]");
+  schema.add(
+      "max_gap",
+      inertial.max_imu_gap,
+      kNotNegative,
+      "Longest time between readings [s]; 0: four times the usual one");
+  ImuInputOptions& input = inertial.imu_input;
+  schema.add("gyro_scale", input.gyro_scale, "Makes rad/s of the readings; 0: by the data");
+  schema.add("accel_scale", input.accel_scale, "Makes m/s^2, -1: wrong sign; 0: by the data");
+  schema.add("time_offset", input.time_offset, "Added to the IMU's times [s]");
   InitializerOptions& initializer = inertial.initializer;
   schema.add("still_duration", initializer.still_duration, {0.2, 10.0}, "Stillness at start [s]");
   schema.add("max_still_gyro", initializer.max_still_gyro, kPositive, "[rad/s]");
@@ -89,7 +97,7 @@ void bind_imu(Schema& schema, InertialOptions& inertial) {
   schema.add(
       "moving_start_after",
       initializer.moving_start_after,
-      "Start while moving after this long [s]; negative: never");
+      "A moving sensor starts without the IMU after this long [s]; negative: never");
   schema.add("gravity", initializer.gravity, {1.0, 30.0}, "[m/s^2]");
 }
 

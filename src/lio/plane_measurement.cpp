@@ -174,7 +174,7 @@ FitSummary PlaneMeasurement::summary() const {
     }
   }
   if (inliers > 0) {
-    fit.inlier_share = static_cast<double>(inliers) / static_cast<double>(fit.residuals);
+    fit.inlier_share = static_cast<double>(inliers) / static_cast<double>(fit.keypoints);
     fit.rms = std::sqrt(sq_sum / static_cast<double>(inliers));
   }
   return fit;

@@ -67,7 +67,7 @@ struct PlaneResidual {
 struct FitSummary {
   std::size_t keypoints = 0;
   std::size_t residuals = 0;  ///< keypoints that found a plane
-  double inlier_share = 0.0;  ///< of the residuals, within three standard deviations
+  double inlier_share = 0.0;  ///< of the keypoints: residuals within three standard deviations
   double rms = 0.0;           ///< of the inliers' distances [m]
 };
 

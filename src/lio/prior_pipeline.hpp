@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "lio/deskew.hpp"
@@ -42,6 +43,7 @@ class PriorPipeline final : public Pipeline {
   const DeskewedScan& scan() const override { return pipeline_->scan(); }
   const std::vector<Eigen::Vector3f>& normals() const override { return pipeline_->normals(); }
   void start_at(const Pose& T_map_body) override { start_ = Start{T_map_body, false}; }
+  std::vector<std::string> findings() const override { return pipeline_->findings(); }
 
  private:
   Place find(const Scan& scan);

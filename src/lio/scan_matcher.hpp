@@ -9,6 +9,7 @@
 #include "lio/deskew.hpp"
 #include "lio/error_state_filter.hpp"
 #include "lio/lio_map.hpp"
+#include "lio/unobserved_directions.hpp"
 
 namespace nvm::lio {
 
@@ -25,7 +26,7 @@ struct MatchResult {
   std::size_t residuals = 0;  ///< keypoints that found a plane
   double inlier_share = 0.0;  ///< of the keypoints, 0 to 1
   double residual_rms = 0.0;  ///< [m]
-  int degenerate_directions = 0;
+  UnobservedDirections unobserved;
   int iterations = 0;
 };
 

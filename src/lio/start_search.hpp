@@ -30,6 +30,8 @@ class StartSearch {
   /// Adds the points of `map`, which has none in common with the scans so far.
   void insert(const VoxelMap& map);
 
+  void clear() { map_.clear(); }
+
   /// The poses that alignment to the coarse map finds from each of `guesses`, best fit first.
   std::vector<Pose> search(
       const std::vector<Eigen::Vector3f>& points,

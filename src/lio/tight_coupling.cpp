@@ -54,7 +54,7 @@ bool TightCoupling::inform(
   const double mean_range = equations.sum_weights > 0.0
                                 ? std::sqrt(equations.sum_sq_ranges / equations.sum_weights)
                                 : 0.0;
-  result.degenerate_directions = remove_unobserved(information, mean_range, min_observability_);
+  result.unobserved = remove_unobserved(information, mean_range, min_observability_);
   return equations.counts.valid >= min_residuals_;
 }
 

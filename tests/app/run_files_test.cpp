@@ -79,6 +79,8 @@ TEST_F(RunFilesTest, FramesHaveACellForEachColumn) {
   frame.status = FrameStatus::kWeak;
   frame.message = "a \"quoted\" reason, with a comma";
   frame.times.map_update = 1.25;
+  frame.inlier_share = 0.4375;
+  frame.unobserved.translations = {Eigen::Vector3d::UnitX()};
   RunFiles(path("")).add(frame);
   const std::vector<std::string> lines = lines_of("frames.csv");
   ASSERT_EQ(lines.size(), 2U);
@@ -86,10 +88,14 @@ TEST_F(RunFilesTest, FramesHaveACellForEachColumn) {
   EXPECT_THAT(lines[1], ::testing::HasSubstr(",weak," + cell + ","));
   std::string unquoted = lines[1];
   unquoted.replace(unquoted.find(cell), cell.size(), "");
+  const std::string directions = "\"along (1.00, 0.00, 0.00)\"";
+  ASSERT_THAT(unquoted, ::testing::HasSubstr("," + directions + ","));
+  unquoted.replace(unquoted.find(directions), directions.size(), "");
   EXPECT_EQ(
       std::count(unquoted.begin(), unquoted.end(), ','),
       std::count(lines[0].begin(), lines[0].end(), ','));
   EXPECT_THAT(lines[1], ::testing::HasSubstr(",1.250,"));
+  EXPECT_THAT(lines[1], ::testing::HasSubstr(",0.4375,"));
 }
 
 TEST_F(RunFilesTest, TimingSumsFramesUp) {
@@ -135,7 +141,8 @@ TEST(RunSummaryTest, WarnsOfEachKindOfTroubleWithItsFirstFrame) {
     summary.add(frame);
   }
   const std::vector<std::string> warnings = summary.warnings();
-  ASSERT_EQ(warnings.size(), 3U);
+  ASSERT_EQ(warnings.size(), 4U);
+  EXPECT_THAT(warnings, ::testing::Contains(::testing::HasSubstr("degenerate")));
   for (const FrameStatus status : {FrameStatus::kWeak, FrameStatus::kLost, FrameStatus::kSkipped}) {
     const auto first = std::find_if(frames.begin(), frames.end(), [status](const auto& frame) {
       return frame.status == status;
@@ -157,8 +164,9 @@ RunSummary summary_of(const std::string& letters) {
     frame.status = letter == 'w'   ? FrameStatus::kWeak
                    : letter == 'l' ? FrameStatus::kLost
                    : letter == 'i' ? FrameStatus::kInitializing
+                   : letter == 'd' ? FrameStatus::kDegenerate
                                    : FrameStatus::kTracking;
-    frame.degenerate_directions = letter == 'T' ? 2 : 0;
+    frame.degenerate_directions = letter == 'T' || letter == 'd' ? 2 : 0;
     frame.message = letter == 't' ? "" : "why";
     summary.add(frame);
   }
@@ -167,13 +175,30 @@ RunSummary summary_of(const std::string& letters) {
 
 TEST(RunSummaryTest, NamesTheSecondsOfTheRun) {
   EXPECT_THAT(
-      summary_of("ittwwwtttTTTtlt").warnings(),
+      summary_of("ittwwwtttdddTlt").warnings(),
       ::testing::ElementsAre(
           "3 of 15 scans weak (their poses are predictions): 0.3 to 0.5 s; why",
           "1 of 15 scans lost (they have no pose): at 1.3 s; why",
           ::testing::AllOf(
-              ::testing::HasSubstr("3 of 15 scans do not tell all directions"),
+              ::testing::HasSubstr("3 of 15 scans degenerate: for too long"),
               ::testing::EndsWith(": 0.9 to 1.1 s"))));
+}
+
+TEST(RunSummaryTest, NamesTheDirectionsThatScansDoNotTell) {
+  RunSummary summary;
+  FrameResult frame;
+  frame.status = FrameStatus::kDegenerate;
+  frame.degenerate_directions = 2;
+  for (const double sign : {1.0, -1.0, 1.0}) {
+    frame.unobserved.translations = {sign * Eigen::Vector3d(0.6, -0.8, 0.0)};
+    frame.unobserved.rotations = {sign * Eigen::Vector3d::UnitZ()};
+    summary.add(frame);
+    frame.time += 0.1;
+  }
+  EXPECT_THAT(
+      summary.warnings(),
+      ::testing::ElementsAre(::testing::HasSubstr(
+          "drifts, mostly along (-0.60, 0.80, 0.00), turning about (0.00, 0.00, 1.00)): 0.0 to")));
 }
 
 TEST(RunSummaryTest, TellsTheLongestTimesOfMany) {
@@ -184,11 +209,9 @@ TEST(RunSummaryTest, TellsTheLongestTimesOfMany) {
       ::testing::HasSubstr("0.2 to 0.4 s, 0.8 to 1.2 s, 1.6 to 1.7 s, 1.9 to 2.2 s and 3 shorter"));
 }
 
-TEST(RunSummaryTest, UsableFramesRestOnTheirScanInAllDirections) {
-  EXPECT_EQ(summary_of("iitttTTwl").usable(), 3U);
-  EXPECT_EQ(
-      summary_of("iitttTTwl").counts(),
-      "2 initializing, 1 weak, 1 lost, 2 with unobserved directions");
+TEST(RunSummaryTest, UsableFramesDoNotSlideForLong) {
+  EXPECT_EQ(summary_of("iitttTddwl").usable(), 4U);
+  EXPECT_EQ(summary_of("iitttTddwl").counts(), "2 initializing, 1 weak, 1 lost, 2 degenerate");
 }
 
 TEST(RunSummaryTest, WarnsOfPointsThatAreNotInTheMap) {

@@ -29,6 +29,11 @@ struct RoomRecording {
   std::size_t points_per_scan = 3000;
   double range_noise = 0.01;  ///< [m]
   Gap scan_gap, imu_gap;      ///< scans and readings inside are left out
+  double imu_step = 0.005;    ///< between readings [s]
+  /// What the IMU sends instead of a true reading.
+  std::function<lio::ImuSample(const lio::ImuSample&)> sent = [](const lio::ImuSample& sample) {
+    return sample;
+  };
   /// Which returns the sensor sees, by their place in the room [m].
   std::function<bool(const Eigen::Vector3d& p_map)> sees = [](const Eigen::Vector3d&) {
     return true;
@@ -54,12 +59,13 @@ struct RoomRecording {
   /// The readings that come before scan `index` is complete and after the one before.
   std::vector<lio::ImuSample> imu(int index) const {
     const auto first_after = [&](int scan) {
-      return scan < 0 ? 0 : static_cast<int>(std::ceil(((scan + 1) * scan_period + 0.01) / kStep));
+      return scan < 0 ? 0
+                      : static_cast<int>(std::ceil(((scan + 1) * scan_period + 0.01) / imu_step));
     };
     std::vector<lio::ImuSample> samples;
     for (int i = first_after(index - 1); i < first_after(index); ++i) {
-      if (!imu_gap.contains(i * kStep)) {
-        samples.push_back(motion.imu(i * kStep));
+      if (!imu_gap.contains(i * imu_step)) {
+        samples.push_back(sent(motion.imu(i * imu_step)));
       }
     }
     return samples;
@@ -99,8 +105,13 @@ struct RoomRecording {
     return (result.T_map_body.translation() - motion.pose(result.time).translation()).norm();
   }
 
- private:
-  static constexpr double kStep = 0.005;  // between readings [s]
+  /// The same between the ways from one pose to another, whatever the map frame: in the first
+  /// body's frame.
+  double error_since(const lio::FrameResult& first, const lio::FrameResult& last) const {
+    const Pose estimated = first.T_map_body.inverse() * last.T_map_body;
+    const Pose truth = motion.pose(first.time).inverse() * motion.pose(last.time);
+    return (estimated.translation() - truth.translation()).norm();
+  }
 };
 
 }  // namespace nvm::test

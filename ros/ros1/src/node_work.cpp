@@ -69,7 +69,8 @@ void Node::process(const RawCloud& cloud) {
   }
   const nvm::lio::Scan scan =
       converter_.convert(nvm::io::read_cloud(cloud.message).records, cloud.stamp);
-  const auto readings = queue_->imu_until(cloud, scan.t_end);
+  const double imu_time_offset = options_.pipeline.inertial.imu_input.time_offset;
+  const auto readings = queue_->imu_until(cloud, scan.t_end - imu_time_offset);
   if (!readings) {
     return;
   }

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include "app/main_axis.hpp"
+
+#include <Eigen/Eigenvalues>
+
+namespace nvm::app {
+
+void MainAxis::add(const std::vector<Eigen::Vector3d>& directions) {
+  for (const Eigen::Vector3d& direction : directions) {
+    scatter_ += direction * direction.transpose();
+  }
+}
+
+std::optional<Eigen::Vector3d> MainAxis::axis() const {
+  if (scatter_.isZero()) {
+    return std::nullopt;
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(scatter_);
+  return eigen.eigenvectors().col(2);
+}
+
+}  // namespace nvm::app

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include "lio/imu_judge.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "lio/printed.hpp"
+#include "nvm/core/require.hpp"
+
+namespace nvm::lio {
+
+namespace {
+
+constexpr double kDegree = 0.017453292519943295;  // [rad]
+constexpr double kStandardGravity = 9.80665;      // [m/s^2]
+
+/// Scans and accelerometer tell the same motion: poses this near to the fit [m], and gravity.
+constexpr double kMaxRms = 0.03;
+constexpr double kGravityError = 0.08;  // share
+
+bool is_about(double value, double expected, double share) {
+  return std::abs(value - expected) <= share * std::abs(expected);
+}
+
+bool is_final(ImuVerdict verdict) {
+  return verdict == ImuVerdict::kMended || verdict == ImuVerdict::kUnusable;
+}
+
+double angle_of(const Eigen::Matrix3d& rotation) { return so3_log(rotation).norm(); }
+
+std::string rotation_finding(const TurnComparison& turns, const Pose& T_body_lidar) {
+  const Eigen::Matrix3d R = turns.rotation.transpose() * T_body_lidar.linear();
+  const Eigen::Quaterniond q(R);
+  const Eigen::AngleAxisd turn(turns.rotation);
+  const Eigen::Vector3d p = T_body_lidar.translation();
+  return printed(
+      "the LiDAR is turned against the IMU by %.0f degrees about (%.2f, %.2f, %.2f): their "
+      "turn rates agree that way only, so T_imu_lidar is missing or wrong; the scans alone are "
+      "used. Set input.T_imu_lidar=[%.3f, %.3f, %.3f, %.4f, %.4f, %.4f, %.4f]%s",
+      turn.angle() / kDegree,
+      turn.axis().x(),
+      turn.axis().y(),
+      turn.axis().z(),
+      p.x(),
+      p.y(),
+      p.z(),
+      q.x(),
+      q.y(),
+      q.z(),
+      q.w(),
+      turns.is_about_one_axis
+          ? " (the sensor turned about one axis alone: a turn about that axis is not known)"
+          : "");
+}
+
+}  // namespace
+
+ImuJudge::ImuJudge(const ImuInputOptions& options, const Pose& T_body_lidar, double gravity)
+    : options_((options.validate(), options)),
+      T_body_lidar_(T_body_lidar),
+      gravity_(gravity),
+      gyro_scale_(options.gyro_scale == 0.0 ? 1.0 : options.gyro_scale),
+      accel_scale_(options.accel_scale == 0.0 ? 1.0 : options.accel_scale) {}
+
+ImuSample ImuJudge::mended(const ImuSample& reading) const {
+  return {reading.time, gyro_scale_ * reading.gyro, accel_scale_ * reading.accel};
+}
+
+void ImuJudge::add(const ImuSample& reading) {
+  constexpr double kMaxDifference = 0.05;  // from 1 g at rest
+  if (!knows_unit()) {
+    ++unit_count_;
+    unit_sum_ += reading.accel;
+    sq_unit_sum_ += reading.accel.squaredNorm();
+    const Eigen::Vector3d mean = unit_sum_ / unit_count_;
+    const double variance = sq_unit_sum_ / unit_count_ - mean.squaredNorm();
+    const bool is_g =
+        is_about(mean.norm(), 1.0, kMaxDifference) && variance <= kMaxDifference * kMaxDifference;
+    if (knows_unit() && is_g && options_.accel_scale == 0.0) {
+      measure_in_g();
+    }
+  }
+  history_.add(mended(reading));
+}
+
+void ImuJudge::measure_in_g() {
+  accel_scale_ = kStandardGravity;
+  tell(
+      "the accelerometer measures in g, for it reads 1 where gravity is felt: multiplied by "
+      "9.80665 (imu.accel_scale sets another factor)");
+}
+
+void ImuJudge::tell(std::string finding) {
+  const bool is_new = std::find(findings_.begin(), findings_.end(), finding) == findings_.end();
+  if (is_new) {
+    findings_.push_back(std::move(finding));
+  }
+}
+
+ImuVerdict ImuJudge::judge(double duration) {
+  constexpr double kMaxMismatch = 0.06;  // a misalignment of 14 degrees
+  constexpr double kUnturned = 6.0;      // [s]
+  constexpr double kRounding = 0.01;     // [s]
+  const ImuVerdict turns = judge_turns(kMaxMismatch);
+  const ImuVerdict gravity = is_final(turns) ? turns : judge_gravity();
+  const ImuVerdict sign = is_final(gravity) ? gravity : judge_sign(turns);
+  if (is_final(sign)) {
+    return sign;
+  }
+  // Who does not turn for long may begin without the gyroscope's proof.
+  const bool has_proof = turns == ImuVerdict::kGood || history_.duration() >= kUnturned;
+  const bool agrees = has_proof && history_.duration() >= duration - kRounding && motion();
+  return agrees ? ImuVerdict::kGood : ImuVerdict::kUnknown;
+}
+
+ImuVerdict ImuJudge::watch() {
+  constexpr double kMaxMismatch = 0.2;
+  const ImuVerdict turns = judge_turns(kMaxMismatch);
+  return is_final(turns) ? turns : judge_sign(turns);
+}
+
+ImuVerdict ImuJudge::judge_turns(double max_mismatch) {
+  constexpr double kAgrees = 0.1;
+  constexpr double kSmallTurn = 0.25;  // [rad]
+  const std::optional<TurnComparison> turns = compare_turns(history_);
+  if (!turns) {
+    return ImuVerdict::kUnknown;
+  }
+  const bool is_explained = turns->best_mismatch < kAgrees;
+  const bool is_turned = angle_of(turns->rotation) > kSmallTurn;
+  has_offset_ = turns->offset != 0.0 && is_explained;
+  if (has_offset_) {
+    tell(printed(
+        "the IMU's clock is %.0f ms %s: the scans turn when the gyroscope does only if "
+        "imu.time_offset=%.3f is set",
+        1e3 * std::abs(turns->offset),
+        turns->offset > 0.0 ? "late" : "early",
+        -turns->offset));
+  }
+  if (turns->mismatch <= max_mismatch) {
+    return ImuVerdict::kGood;
+  }
+  if (is_explained && !is_turned && is_about(turns->scale, kDegree, 0.2) &&
+      options_.gyro_scale == 0.0) {
+    gyro_scale_ *= kDegree;
+    history_.clear();
+    tell(printed(
+        "the gyroscope turns %.1f times as fast as the scans, so it measures in degrees per "
+        "second: multiplied by 0.0174533 (imu.gyro_scale sets another factor)",
+        1.0 / turns->scale));
+    return ImuVerdict::kMended;
+  }
+  constexpr double kConclusive = 1.5;  // an offset of the clocks may yet explain it [rad]
+  if (turns->turned < kConclusive) {
+    return ImuVerdict::kUnknown;
+  }
+  if (is_explained && is_turned && is_about(turns->scale, 1.0, 0.2)) {
+    tell(rotation_finding(*turns, T_body_lidar_));
+  } else if (turns->offset == 0.0 || !is_explained) {
+    tell(printed(
+        "the gyroscope does not turn as the scans do (they differ by %.0f %% of %.1f rad): is "
+        "it this LiDAR's IMU, on its clock? The scans alone are used",
+        100.0 * std::sqrt(turns->mismatch),
+        turns->turned));
+  }
+  return ImuVerdict::kUnusable;
+}
+
+ImuVerdict ImuJudge::judge_gravity() {
+  constexpr double kDuration = 1.0;  // [s]
+  constexpr double kTolerance = 0.3;
+  const std::optional<MotionFit> fit = fit_motion(history_, kDuration, 1.0);
+  if (!fit || history_.duration() < 0.9 * kDuration) {
+    return ImuVerdict::kUnknown;
+  }
+  if (is_about(fit->gravity.norm(), gravity_, kTolerance)) {
+    return ImuVerdict::kGood;
+  }
+  const std::optional<MotionFit> in_g = fit_motion(history_, kDuration, kStandardGravity);
+  if (in_g && accel_scale_ == 1.0 && options_.accel_scale == 0.0 && in_g->position_rms <= kMaxRms &&
+      is_about(in_g->gravity.norm(), gravity_, kGravityError)) {
+    measure_in_g();
+    history_.clear();
+    return ImuVerdict::kMended;
+  }
+  tell(printed(
+      "the accelerometer feels %.2f m/s^2 of gravity, not %.2f: its driver removes gravity or "
+      "sends no accelerations; the scans alone are used. Record raw accelerations, or set "
+      "imu.accel_scale",
+      fit->gravity.norm(),
+      gravity_));
+  return ImuVerdict::kUnusable;
+}
+
+// Accelerations at wrong times may go against the scans' as well.
+ImuVerdict ImuJudge::judge_sign(ImuVerdict turns) {
+  constexpr double kDuration = 3.0;  // [s]
+  constexpr double kMaxDeviation = 0.2;
+  const std::optional<MotionFit> fit = fit_motion(history_, kDuration, 0.0);
+  if (turns != ImuVerdict::kGood || has_offset_ || !fit ||
+      fit->accel_scale_deviation > kMaxDeviation) {
+    return ImuVerdict::kUnknown;
+  }
+  if (!is_about(fit->accel_scale, -1.0, 0.4) || options_.accel_scale != 0.0) {
+    return ImuVerdict::kGood;
+  }
+  accel_scale_ = -accel_scale_;
+  history_.clear();
+  tell(
+      "the accelerometer's sign is wrong: it reads the negative of what the scans' motion and "
+      "gravity make it feel; turned round (imu.accel_scale=-1 says so from the beginning)");
+  return ImuVerdict::kMended;
+}
+
+std::optional<MotionFit> ImuJudge::motion() const {
+  constexpr double kDuration = 1.0;  // [s]
+  const std::optional<MotionFit> fit = fit_motion(history_, kDuration, 1.0);
+  const bool agrees = fit && history_.duration() >= 0.9 * kDuration &&
+                      fit->position_rms <= kMaxRms &&
+                      is_about(fit->gravity.norm(), gravity_, kGravityError);
+  return agrees ? fit : std::nullopt;
+}
+
+void ImuInputOptions::validate() const {
+  const auto finite = [](double value, const char* name) {
+    require(std::isfinite(value), name, value, "a finite number");
+  };
+  finite(gyro_scale, "gyro_scale");
+  finite(accel_scale, "accel_scale");
+  finite(time_offset, "time_offset");
+}
+
+}  // namespace nvm::lio

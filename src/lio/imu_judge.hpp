@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lio/motion_fit.hpp"
+#include "lio/motion_history.hpp"
+#include "lio/turn_comparison.hpp"
+
+namespace nvm::lio {
+
+/// What to make of the IMU's numbers.
+struct ImuInputOptions {
+  /// Factors that make rad/s and m/s^2 of what the IMU sends: 0.0174533 for degrees per second,
+  /// 9.80665 for g, -1 where the sign is wrong. 0: found from the data.
+  double gyro_scale = 0.0;
+  double accel_scale = 0.0;
+  /// Added to the IMU's times [s]: negative where its clock is late.
+  double time_offset = 0.0;
+
+  void validate() const;
+};
+
+/// What the scans say of the IMU.
+enum class ImuVerdict {
+  kUnknown,   ///< too little motion yet
+  kGood,      ///< both tell the same motion
+  kMended,    ///< a unit or a sign has been mended: what was read before counts no more
+  kUnusable,  ///< they contradict each other, for a reason that findings() tells
+};
+
+/// Checks the IMU against poses that scans tell without it: units, signs, gravity, axes and clock.
+class ImuJudge {
+ public:
+  /// `T_body_lidar`: the extrinsic that the poses take for granted; `gravity` [m/s^2].
+  ImuJudge(const ImuInputOptions& options, const Pose& T_body_lidar, double gravity);
+
+  /// A reading with all that has been found out so far.
+  ImuSample mended(const ImuSample& reading) const;
+  /// Takes readings as they come.
+  void add(const ImuSample& reading);
+  void add(const StampedPose& T_map_body) { history_.add(T_map_body); }
+  /// The next poses belong to another stretch.
+  void forget() { history_.clear(); }
+
+  /// Whether enough readings came to tell the unit of the accelerations.
+  bool knows_unit() const { return unit_count_ >= kUnitCount; }
+  /// Of poses that know nothing of the IMU, once they last for `duration` [s].
+  ImuVerdict judge(double duration);
+  /// Of poses that were predicted by the IMU, in which small contradictions do not show.
+  ImuVerdict watch();
+  /// The motion at the last pose, once scans and accelerometer agree on it.
+  std::optional<MotionFit> motion() const;
+
+  /// One line each: what was seen, what it usually means, what mends it.
+  const std::vector<std::string>& findings() const { return findings_; }
+
+ private:
+  static constexpr int kUnitCount = 20;
+
+  ImuVerdict judge_turns(double max_mismatch);
+  ImuVerdict judge_gravity();
+  ImuVerdict judge_sign(ImuVerdict turns);
+  void measure_in_g();
+  void tell(std::string finding);
+
+  ImuInputOptions options_;
+  Pose T_body_lidar_;
+  double gravity_;
+  double gyro_scale_, accel_scale_;
+  int unit_count_ = 0;
+  Eigen::Vector3d unit_sum_ = Eigen::Vector3d::Zero();
+  double sq_unit_sum_ = 0.0;
+  MotionHistory history_;
+  bool has_offset_ = false;  ///< of the clocks, by the last look at the turns
+  std::vector<std::string> findings_;
+};
+
+}  // namespace nvm::lio

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+//
+// How the IMU joins the scans, and leaves them: the other half of InertialPipeline.
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "lio/inertial_pipeline.hpp"
+
+namespace nvm::lio {
+
+// All readings go to the judge, and until the first state to the initializer.
+void InertialPipeline::read_imu(double until) {
+  constexpr double kMaxAge = 2.0;  // older ones are of another time, or of a clock that is [s]
+  first_time_ = first_time_.value_or(until);
+  imu_.between(std::max(read_until_, until - kMaxAge), until, 0.0, samples_);
+  for (const ImuSample& sample : samples_) {
+    if (sample.time > read_until_) {
+      judge_.add(sample);
+      read_until_ = sample.time;
+      if (!filter_ && !is_alone_) {
+        unread_.push_back(sample);
+      }
+    }
+  }
+}
+
+bool InertialPipeline::initialize(FrameResult& result) {
+  for (; judge_.knows_unit() && !unread_.empty(); unread_.pop_front()) {
+    const ImuSample sample = judge_.mended(unread_.front());
+    initializer_.add(sample);
+    if (std::optional<InitialState> initial = initializer_.state()) {
+      initial->covariance.diagonal() += extrinsic_deviations().cwiseAbs2();
+      initial->state.T_body_lidar = options_.T_imu_lidar;
+      if (start_) {
+        move_to(*start_, *initial);
+      }
+      filter_.emplace(initial->state, initial->covariance, options_.imu_noise);
+      last_believed_ = {sample.time, initial->state.T_world_body};
+      return true;
+    }
+  }
+  result.message = initializer_.why_not();
+  return false;
+}
+
+// The scans need not wait for the IMU when it moves, makes no sense or is not there.
+bool InertialPipeline::is_to_go_alone(double time) {
+  constexpr double kPatience = 0.5;  // [s]
+  const double patience = options_.initializer.moving_start_after;
+  const bool is_silent = time - std::max(*first_time_, read_until_) > kPatience;
+  return patience >= 0.0 && (initializer_.is_hopeless() || is_silent);
+}
+
+void InertialPipeline::go_alone(const ConstantVelocity& motion) {
+  alone_.continue_from(motion);
+  judge_.forget();
+  is_alone_ = true;
+}
+
+FrameResult InertialPipeline::process_alone(const Scan& scan) {
+  constexpr double kToSettle = 0.5;  // [s]
+  is_scan_alone_ = true;
+  FrameResult result = alone_.process(scan);
+  imu_.use_until(scan.t_end);
+  if (is_believed(result.status) && is_imu_usable_) {
+    judge_.add(StampedPose{result.time, result.T_map_body});
+    last_believed_ = {result.time, result.T_map_body};
+    const ImuVerdict verdict = judge_.judge(join_after_);
+    is_imu_usable_ = verdict != ImuVerdict::kUnusable;
+    // Where the scans slide they tell no velocity to begin with.
+    slid_time_ = result.unobserved.empty() ? slid_time_ : result.time;
+    if (verdict == ImuVerdict::kGood && result.time - slid_time_ > kToSettle) {
+      join_imu(*judge_.motion());
+    }
+  }
+  return result;
+}
+
+const DeskewedScan& InertialPipeline::scan() const {
+  return is_scan_alone_ ? alone_.scan() : prepared_.scan;
+}
+
+const std::vector<Eigen::Vector3f>& InertialPipeline::normals() const {
+  return is_scan_alone_ ? alone_.normals() : prepared_.normals;
+}
+
+void InertialPipeline::join_imu(const MotionFit& motion) {
+  InitialState initial = moving_state(
+      last_believed_, motion.velocity, motion.gravity.normalized() * options_.initializer.gravity);
+  initial.state.gyro_bias = motion.gyro_bias;
+  initial.state.T_body_lidar = options_.T_imu_lidar;
+  initial.covariance.diagonal() += extrinsic_deviations().cwiseAbs2();
+  filter_.emplace(initial.state, initial.covariance, options_.imu_noise);
+  is_alone_ = false;
+  believed_ = 0;
+  believed_doubt_ = 0.0;
+}
+
+// Watches what is believed, and goes on alone when it is lost or contradicts the IMU.
+void InertialPipeline::judge_imu(const FrameResult& result) {
+  constexpr std::size_t kFirst = 20;    // frames
+  constexpr double kRejoinAfter = 3.0;  // what has failed once must prove itself for longer [s]
+  ImuVerdict verdict = ImuVerdict::kUnknown;
+  if (is_believed(result.status)) {
+    judge_.add(StampedPose{result.time, result.T_map_body});
+    ++believed_;
+    const bool is_due = believed_ >= kFirst && (believed_ & (believed_ - 1)) == 0;
+    verdict = believed_ == kFirst || is_due ? judge_.watch() : verdict;
+  }
+  is_imu_usable_ = verdict != ImuVerdict::kUnusable;
+  if (result.status == FrameStatus::kLost || !is_imu_usable_ || verdict == ImuVerdict::kMended) {
+    join_after_ = kRejoinAfter;
+    go_alone(ConstantVelocity(last_believed_));
+  }
+}
+
+std::vector<std::string> InertialPipeline::findings() const {
+  std::vector<std::string> findings = judge_.findings();
+  const std::size_t bad = imu_.stats().non_finite + imu_.stats().implausible;
+  if (bad > 0) {
+    findings.push_back(
+        std::to_string(bad) +
+        " IMU readings are left out: they are not finite, beyond any IMU, or spikes");
+  }
+  if (is_alone_ && judge_.findings().empty()) {
+    findings.push_back(
+        read_until_ < *first_time_
+            ? "no IMU reading is as old as a scan: their clocks differ, set imu.time_offset; the "
+              "scans alone are used"
+            : "the IMU has not told the motion that the scans tell: the scans alone are used");
+  }
+  return findings;
+}
+
+// The first scan makes the map where the assumed extrinsic puts it, so that in this map the body's
+// pose and gravity are as unsure as the extrinsic.
+NavVector InertialPipeline::extrinsic_deviations() const {
+  NavVector deviations = NavVector::Zero();
+  for (const NavIndex part : {kPosition, kLidarPosition}) {
+    deviations.segment<3>(part).setConstant(options_.extrinsic_translation_deviation);
+  }
+  for (const NavIndex part : {kRotation, kLidarRotation}) {
+    deviations.segment<3>(part).setConstant(options_.extrinsic_rotation_deviation);
+  }
+  deviations.segment<2>(kGravity).setConstant(options_.extrinsic_rotation_deviation);
+  return deviations;
+}
+
+}  // namespace nvm::lio

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "lio/pipeline_options.hpp"
+#include "lio/room_recording.hpp"
+
+namespace nvm::lio {
+namespace {
+
+using test::RoomRecording;
+
+PipelineOptions room_options() {
+  PipelineOptions options;
+  options.type = PipelineType::kFastLio;
+  options.map.capacity = 20'000;
+  options.inertial.normals.min_radius = 0.3;  // the recording's scans are thin
+  options.inertial.normals.max_radius = 0.6;
+  return options;
+}
+
+struct Outcome {
+  std::vector<FrameResult> frames;
+  std::vector<std::string> findings;
+};
+
+Outcome run(const RoomRecording& recording, const PipelineOptions& options = room_options()) {
+  const auto pipeline = make_pipeline(options);
+  Outcome outcome;
+  outcome.frames = recording.run(*pipeline);
+  outcome.findings = pipeline->findings();
+  return outcome;
+}
+
+/// All frames after `since` [s] are believed, and tell the way from the first of them.
+void expect_tracks_from(double since, const RoomRecording& recording, const Outcome& outcome) {
+  const FrameResult* first = nullptr;
+  for (const FrameResult& frame : outcome.frames) {
+    if (frame.time < since) {
+      continue;
+    }
+    EXPECT_EQ(frame.status, FrameStatus::kTracking) << frame.time << ": " << frame.message;
+    first = first ? first : &frame;
+    EXPECT_LT(recording.error_since(*first, frame), 0.03) << frame.time;
+  }
+  ASSERT_TRUE(first);
+}
+
+RoomRecording recording_sending(const std::function<void(ImuSample&)>& change) {
+  RoomRecording recording;
+  recording.sent = [change](const ImuSample& sample) {
+    ImuSample sent = sample;
+    change(sent);
+    return sent;
+  };
+  return recording;
+}
+
+TEST(ImperfectImu, OfARecordingThatBeginsInMotionJoinsTheScans) {
+  RoomRecording recording;
+  recording.motion.start = -3.0;
+  recording.duration = 5.0;
+  const Outcome outcome = run(recording);
+  expect_tracks_from(0.55, recording, outcome);
+  EXPECT_THAT(outcome.findings, ::testing::IsEmpty());
+}
+
+TEST(ImperfectImu, ThatBeginsLaterJoinsTheScans) {
+  RoomRecording recording;
+  recording.motion.start = -3.0;
+  recording.imu_gap = {0.0, 2.2};
+  const Outcome outcome = run(recording);
+  expect_tracks_from(0.75, recording, outcome);
+  EXPECT_THAT(outcome.findings, ::testing::IsEmpty());
+}
+
+TEST(ImperfectImu, OfTwentyReadingsPerSecondIsNoGap) {
+  RoomRecording recording;
+  recording.imu_step = 0.05;
+  expect_tracks_from(1.3, recording, run(recording));
+}
+
+TEST(ImperfectImu, ThatIsSilentForHalfASecondIsBridged) {
+  RoomRecording recording;
+  recording.imu_gap = {3.0, 3.6};
+  expect_tracks_from(1.3, recording, run(recording));
+}
+
+TEST(ImperfectImu, InDegreesAndGIsMended) {
+  const RoomRecording recording = recording_sending([](ImuSample& sample) {
+    sample.gyro *= 57.29577951308232;
+    sample.accel /= 9.80665;
+  });
+  const Outcome outcome = run(recording);
+  expect_tracks_from(2.5, recording, outcome);
+  EXPECT_THAT(
+      outcome.findings,
+      ::testing::ElementsAre(
+          ::testing::HasSubstr("in g"), ::testing::HasSubstr("degrees per second")));
+}
+
+TEST(ImperfectImu, WithoutAccelerationsIsLeftOut) {
+  const RoomRecording recording =
+      recording_sending([](ImuSample& sample) { sample.accel.setZero(); });
+  const Outcome outcome = run(recording);
+  expect_tracks_from(1.3, recording, outcome);
+  EXPECT_THAT(outcome.findings, ::testing::ElementsAre(::testing::HasSubstr("feels 0.0")));
+}
+
+TEST(ImperfectImu, OnAnotherClockIsLeftOut) {
+  for (const double offset : {1.7e9, -1.7e9}) {
+    const RoomRecording recording =
+        recording_sending([offset](ImuSample& sample) { sample.time += offset; });
+    const Outcome outcome = run(recording);
+    expect_tracks_from(0.75, recording, outcome);
+    EXPECT_THAT(outcome.findings, ::testing::ElementsAre(::testing::HasSubstr("imu.time_offset")));
+  }
+}
+
+TEST(ImperfectImu, WithAKnownOffsetIsShifted) {
+  const RoomRecording recording = recording_sending([](ImuSample& sample) { sample.time += 25.0; });
+  PipelineOptions options = room_options();
+  options.inertial.imu_input.time_offset = -25.0;
+  expect_tracks_from(1.3, recording, run(recording, options));
+}
+
+TEST(ImperfectImu, WithSpikesIsUsedWithoutThem) {
+  RoomRecording recording;
+  int count = 0;
+  recording.sent = [&count](const ImuSample& sample) {
+    ImuSample sent = sample;
+    if (++count % 97 == 0) {
+      sent.accel.setConstant(count % 2 == 0 ? 1e160 : 400.0);
+    }
+    return sent;
+  };
+  const Outcome outcome = run(recording);
+  expect_tracks_from(1.3, recording, outcome);
+  EXPECT_THAT(outcome.findings, ::testing::ElementsAre(::testing::HasSubstr("are left out")));
+}
+
+TEST(LostPose, IsFoundAgainInTheSameRoom) {
+  RoomRecording recording;
+  recording.duration = 6.0;
+  const auto pipeline = make_pipeline(room_options());
+  FrameResult first, last;
+  for (int i = 0; i < recording.scan_count(); ++i) {
+    last = recording.feed(*pipeline, i, [i](Scan& scan) {
+      for (TimedPoint& point : scan.points) {
+        point.x *= i >= 25 && i < 40 ? 30.0F : 1.0F;  // for 1.5 s nothing fits
+      }
+    });
+    first = i == 20 ? last : first;
+    EXPECT_EQ(is_believed(last.status), (i >= 8 && i < 25) || i >= 40) << i << last.message;
+  }
+  EXPECT_LT(recording.error_since(first, last), 0.03);
+}
+
+}  // namespace
+}  // namespace nvm::lio

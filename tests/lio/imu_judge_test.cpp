@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include "lio/imu_judge.hpp"
+
+#include <gmock/gmock.h>
+
+#include <Eigen/Geometry>
+#include <cstdio>
+#include <functional>
+#include <random>
+#include <stdexcept>
+
+#include "lio/analytic_motion.hpp"
+#include "support/rng.hpp"
+
+namespace nvm::lio {
+namespace {
+
+constexpr double kDegree = 0.017453292519943295;
+
+/// Feeds a judge `duration` [s] of a swaying motion: readings at 100 Hz, changed, and noisy poses
+/// at 10 Hz. Stops at its first verdict that is final.
+class Witness {
+ public:
+  std::function<ImuSample(double)> reading = [this](double t) { return motion.imu(t); };
+  Pose T_body_lidar = Pose::Identity();  ///< that the poses wrongly do not know
+  ImuInputOptions options;
+  test::AnalyticMotion motion{-3.0};
+
+  ImuVerdict verdict(double duration) {
+    ImuVerdict verdict = ImuVerdict::kUnknown;
+    for (int i = 0; i < static_cast<int>(100 * duration); ++i) {
+      judge.add(reading(0.01 * i));
+      if (i % 10 == 9) {
+        judge.add(pose(0.01 * i));
+        verdict = judge.judge(1.0);
+        if (verdict == ImuVerdict::kUnusable || verdict == ImuVerdict::kMended) {
+          break;
+        }
+      }
+    }
+    return verdict;
+  }
+
+  StampedPose pose(double t) {
+    Pose pose = T_body_lidar.inverse() * motion.pose(t) * T_body_lidar;
+    for (int axis = 0; axis < 3; ++axis) {
+      pose.translation()[axis] += 0.003 * noise(rng);
+    }
+    return {t, pose};
+  }
+
+  std::mt19937_64 rng = test::rng();
+  std::normal_distribution<double> noise{0.0, 1.0};
+  ImuJudge judge{options, Pose::Identity(), 9.81};
+};
+
+TEST(ImuJudge, BelievesAnImuThatTellsTheScansMotion) {
+  Witness witness;
+  EXPECT_EQ(witness.verdict(6.0), ImuVerdict::kGood);
+  EXPECT_TRUE(witness.judge.findings().empty());
+  const auto motion = witness.judge.motion();
+  ASSERT_TRUE(motion);
+  EXPECT_LT((motion->velocity - witness.motion.velocity(5.99)).norm(), 0.05);
+  EXPECT_LT((motion->gravity - Eigen::Vector3d(0.0, 0.0, -9.81)).norm(), 0.3);
+}
+
+TEST(ImuJudge, TurnsDegreesIntoRadians) {
+  Witness witness;
+  witness.reading = [&](double t) {
+    ImuSample sample = witness.motion.imu(t);
+    sample.gyro /= kDegree;
+    return sample;
+  };
+  EXPECT_EQ(witness.verdict(6.0), ImuVerdict::kMended);
+  EXPECT_THAT(witness.judge.findings()[0], ::testing::HasSubstr("degrees per second"));
+  const ImuSample mended = witness.judge.mended(witness.reading(2.0));
+  EXPECT_LT((mended.gyro - witness.motion.imu(2.0).gyro).norm(), 1e-6);
+}
+
+TEST(ImuJudge, TurnsGIntoMetresPerSquareSecond) {
+  Witness witness;
+  witness.reading = [&](double t) {
+    ImuSample sample = witness.motion.imu(t);
+    sample.accel /= 9.80665;
+    return sample;
+  };
+  EXPECT_EQ(witness.verdict(3.0), ImuVerdict::kMended);
+  EXPECT_THAT(witness.judge.findings(), ::testing::ElementsAre(::testing::HasSubstr("in g")));
+}
+
+TEST(ImuJudge, TurnsAWrongSignRound) {
+  Witness witness;
+  witness.reading = [&](double t) {
+    ImuSample sample = witness.motion.imu(t);
+    sample.accel = -sample.accel;
+    return sample;
+  };
+  EXPECT_EQ(witness.verdict(6.0), ImuVerdict::kMended);
+  EXPECT_THAT(witness.judge.findings()[0], ::testing::HasSubstr("imu.accel_scale=-1"));
+  const ImuSample mended = witness.judge.mended(witness.reading(2.0));
+  EXPECT_LT((mended.accel - witness.motion.imu(2.0).accel).norm(), 1e-9);
+}
+
+TEST(ImuJudge, MissesGravityThatTheDriverRemoved) {
+  for (const double share : {0.0, 1.0}) {
+    Witness witness;
+    witness.reading = [&](double t) {
+      ImuSample sample = witness.motion.imu(t);
+      const Eigen::Vector3d up = witness.motion.pose(t).linear().transpose().col(2);
+      sample.accel = share * (sample.accel - 9.81 * up);
+      return sample;
+    };
+    EXPECT_EQ(witness.verdict(6.0), ImuVerdict::kUnusable) << share;
+    EXPECT_THAT(witness.judge.findings()[0], ::testing::HasSubstr("of gravity")) << share;
+  }
+}
+
+TEST(ImuJudge, FindsTheRotationOfAnExtrinsicThatIsNotGiven) {
+  for (const Eigen::Vector3d& turn :
+       {Eigen::Vector3d(3.14159, 0.0, 0.0), Eigen::Vector3d(0.0, 1.2, -0.7)}) {
+    Witness witness;
+    witness.T_body_lidar.linear() = so3_exp(turn);
+    EXPECT_EQ(witness.verdict(8.0), ImuVerdict::kUnusable);
+    const Eigen::Quaterniond q(witness.T_body_lidar.linear());
+    const std::string& finding = witness.judge.findings()[0];
+    const std::size_t begin = finding.find("T_imu_lidar=[");
+    ASSERT_NE(begin, std::string::npos) << finding;
+    double numbers[7];
+    ASSERT_EQ(
+        std::sscanf(
+            finding.c_str() + begin,
+            "T_imu_lidar=[%lf, %lf, %lf, %lf, %lf, %lf, %lf]",
+            numbers,
+            numbers + 1,
+            numbers + 2,
+            numbers + 3,
+            numbers + 4,
+            numbers + 5,
+            numbers + 6),
+        7);
+    const Eigen::Quaterniond found(numbers[6], numbers[3], numbers[4], numbers[5]);
+    EXPECT_LT(q.angularDistance(found), 0.05) << finding;
+  }
+}
+
+TEST(ImuJudge, FindsTheOffsetOfTheClocks) {
+  for (const double late : {0.3, -0.25}) {
+    Witness witness;
+    witness.motion.turning = 1.5;
+    witness.reading = [&](double t) {
+      ImuSample sample = witness.motion.imu(t - late);
+      sample.time = t;
+      return sample;
+    };
+    witness.verdict(8.0);
+    ASSERT_FALSE(witness.judge.findings().empty()) << late;
+    const std::string& finding = witness.judge.findings()[0];
+    const std::size_t begin = finding.find("imu.time_offset=");
+    ASSERT_NE(begin, std::string::npos) << finding;
+    EXPECT_NEAR(std::stod(finding.substr(begin + 16)), -late, 0.015) << finding;
+  }
+}
+
+TEST(ImuJudge, RefusesFactorsThatAreNoNumbers) {
+  ImuInputOptions options;
+  options.accel_scale = std::nan("");
+  EXPECT_THROW(ImuJudge(options, Pose::Identity(), 9.81), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace nvm::lio
