@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "eval/chart.hpp"
+#include "eval/html_page.hpp"
 #include "eval/trajectory_charts.hpp"
 
 namespace nvm::eval {
@@ -17,26 +18,11 @@ namespace {
 
 constexpr double kMillimetres = 1e3;
 
-constexpr const char* kHead = R"(<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<title>nvm evaluation</title>
-<style>
-body { font: 14px/1.45 sans-serif; color: #222; background: #fff; margin: 2em auto; max-width: 1320px; padding: 0 1em; }
-h1 { font-size: 1.5em; } h2 { font-size: 1.15em; margin-top: 2em; } h3 { font-size: 1em; margin-bottom: .3em; }
-table { border-collapse: collapse; font-variant-numeric: tabular-nums; }
-th, td { padding: .2em .8em; border-bottom: 1px solid #ddd; text-align: right; }
-th:first-child, td:first-child { text-align: left; }
+constexpr const char* kStyle =
+    R"(h2 { font-size: 1.15em; margin-top: 2em; } h3 { font-size: 1em; margin-bottom: .3em; }
 .row { display: flex; flex-wrap: wrap; gap: 1em; overflow-x: auto; }
 button { font: inherit; border: 1px solid #bbb; border-radius: 4px; background: #fff; padding: .2em .7em; margin-right: .5em; cursor: pointer; }
 button.off { opacity: .35; }
-p.note { color: #666; max-width: 60em; }
-</style>
-</head>
-<body>
-<h1>nvm evaluation</h1>
 )";
 
 // Shows and hides the lines of a run.
@@ -254,7 +240,7 @@ std::string picture_section(const std::vector<WallPicture>& pictures) {
 }  // namespace
 
 std::string html_report(const Evaluation& evaluation, const std::vector<WallPicture>& pictures) {
-  std::string page = kHead;
+  std::string page = html_head("nvm evaluation", 1320, kStyle);
   page += "<table>\n" + cells(header("", evaluation), "th");
   if (evaluation.truth) {
     page += trajectory_rows(evaluation) + wall_summary_rows(evaluation);

@@ -13,15 +13,12 @@
 #include "io/left_out.hpp"
 #include "io/scan_converter.hpp"
 #include "io/scan_files.hpp"
+#include "io/sequence_options.hpp"
 
 namespace nvm::io {
 namespace {
 
-PointTimeOptions point_time_options(const SequenceOptions& options) {
-  PointTimeOptions times;
-  times.field = options.point_time_field;
-  times.unit = options.point_time_unit;
-  times.stamp = options.stamp;
+PointTimeOptions with_assumed_stamps(PointTimeOptions times) {
   times.has_assumed_stamps = true;
   return times;
 }
@@ -32,7 +29,7 @@ class ScanFolder : public SequenceReader {
       : path_(path),
         bin_fields_(options.bin_fields),
         scans_(find_scans(path, info_.notes)),
-        converter_(point_time_options(options)) {
+        converter_(with_assumed_stamps(point_time_options(options))) {
     date_scans(scans_, options.scan_rate, info_.notes);
     learn_times();
     info_.format = "folder of " + extension_of(scans_.front().path.string()) + " scans";

@@ -78,11 +78,16 @@ Pose extrinsic(const SequenceOptions& options, const Pose& otherwise) {
       "input.T_imu_lidar must be seven numbers x y z qx qy qz qw with a unit quaternion");
 }
 
-PointTimeOptions message_time_options(const SequenceOptions& options) {
+PointTimeOptions point_time_options(const SequenceOptions& options) {
   PointTimeOptions times;
   times.field = options.point_time_field;
   times.unit = options.point_time_unit;
   times.stamp = options.stamp;
+  return times;
+}
+
+PointTimeOptions message_time_options(const SequenceOptions& options) {
+  PointTimeOptions times = point_time_options(options);
   times.is_raw = true;
   return times;
 }

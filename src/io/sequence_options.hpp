@@ -21,7 +21,9 @@ void bind(config::Schema& schema, SequenceOptions& options);
 /// that are no pose.
 Pose extrinsic(const SequenceOptions& options, const Pose& otherwise);
 
-/// How the points of messages, which come as the sensor gave them, are dated.
+/// How points are dated, as far as `options` say it.
+PointTimeOptions point_time_options(const SequenceOptions& options);
+/// The same for points of messages, which come as the sensor gave them.
 PointTimeOptions message_time_options(const SequenceOptions& options);
 
 /// The factor that makes m/s^2 of accelerations, the first of which have the lengths `norms`.
