@@ -24,34 +24,65 @@
 
 namespace {
 
-/// What is wrong with the arguments, in one line.
-std::string failure_message(const CLI::App*, const CLI::Error& error) {
-  return fmt::format("nvm: {} (see nvm --help)\n", error.what());
+/// The command that the arguments name, or the program.
+const CLI::App& command_of(const CLI::App& app) {
+  const std::vector<CLI::App*> commands = app.get_subcommands();
+  return commands.empty() ? app : *commands.front();
 }
 
-/// "; did you mean run?", for a command that does not exist.
-std::string suggestion(const CLI::App& app, const std::string& name) {
-  std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands({})) {
-    names.push_back(command->get_name());
-  }
-  const std::optional<std::string> nearest = nvm::config::nearest_name(name, names);
+/// " (see nvm run --help)".
+std::string see_help(const CLI::App& app) {
+  const CLI::App& command = command_of(app);
+  return &command == &app ? " (see nvm --help)" : " (see nvm " + command.get_name() + " --help)";
+}
+
+/// What is wrong with the arguments, in one line.
+std::string failure_message(const CLI::App* app, const CLI::Error& error) {
+  return fmt::format("nvm: {}{}\n", error.what(), see_help(*app));
+}
+
+/// "; did you mean run?", for a name that does not exist.
+std::string suggestion(const std::string& name, const std::vector<std::string>& known) {
+  const std::optional<std::string> nearest = nvm::config::nearest_name(name, known);
   return nearest ? "; did you mean " + *nearest + "?" : "";
+}
+
+/// "nvm has no command rum; did you mean run?", for an argument that nothing takes.
+std::string why_unexpected(const CLI::App& app, const std::string& argument) {
+  const CLI::App& command = command_of(app);
+  const std::string owner = &command == &app ? "nvm" : "nvm " + command.get_name();
+  std::vector<std::string> known;
+  if (argument[0] == '-') {
+    const std::string name = argument.substr(0, argument.find('='));
+    for (const CLI::Option* option : command.get_options()) {
+      if (!option->get_lnames().empty()) {
+        known.push_back("--" + option->get_lnames().front());
+      }
+    }
+    return owner + " has no option " + name + suggestion(name, known);
+  }
+  if (&command != &app) {
+    return owner + " has no use for the argument " + argument;
+  }
+  for (const CLI::App* other : app.get_subcommands({})) {
+    known.push_back(other->get_name());
+  }
+  return "no command " + argument + suggestion(argument, known);
 }
 
 int parse(CLI::App& app, int argc, char** argv) {
   try {
     app.parse(argc, argv);
-  } catch (const CLI::ExtrasError& error) {
-    const std::string first = argv[1];
-    if (!app.get_subcommands().empty() || first[0] == '-') {
+  } catch (const CLI::Success& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    const std::vector<std::string> unexpected = app.remaining(true);
+    if (unexpected.empty()) {
       app.exit(error);
     } else {
-      nvm::app::say("no command " + first + suggestion(app, first) + " (see nvm --help)");
+      nvm::app::say(why_unexpected(app, unexpected.front()) + see_help(app));
     }
     return nvm::app::kExitUsage;
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? nvm::app::kExitSuccess : nvm::app::kExitUsage;
   }
   if (app.get_subcommands().empty()) {
     fmt::print("{}", app.help());

@@ -12,15 +12,21 @@
 namespace nvm::io {
 
 void bind(config::Schema& schema, SequenceOptions& options) {
-  schema.add("lidar_topic", options.lidar_topic, "Of a bag; empty: the first with point clouds");
-  schema.add("imu_topic", options.imu_topic, "Of a bag; empty: the first with IMU messages");
+  schema.add(
+      "lidar_topic",
+      options.lidar_topic,
+      "The topic of the point clouds; when empty, the first of a bag that has them");
+  schema.add(
+      "imu_topic",
+      options.imu_topic,
+      "The topic of the IMU; when empty, the first of a bag that has its messages");
   schema.add_choice<AccelUnit>(
       "accel_unit",
       options.accel_unit,
       {{"auto", AccelUnit::kAutomatic},
        {"m/s2", AccelUnit::kMetrePerSquareSecond},
        {"g", AccelUnit::kStandardGravity}},
-      "Of a bag's IMU");
+      "The unit of accelerations in a bag");
   schema.add_choice<TimeUnit>(
       "point_time_unit",
       options.point_time_unit,
@@ -30,33 +36,41 @@ void bind(config::Schema& schema, SequenceOptions& options) {
        {"us", TimeUnit::kMicrosecond},
        {"ns", TimeUnit::kNanosecond},
        {"sweep", TimeUnit::kSweep}},
-      "Of the points' time field; sweep: 0 to 1 from begin to end");
+      "The unit of the points' times; with sweep they go from 0 to 1 between its begin and end");
   schema.add(
       "point_time_field",
       options.point_time_field,
-      "Its name; azimuth: raw scans of a spinning sensor; none: no times; empty: automatic");
+      "The name of the points' time field, found when empty; azimuth takes the times from the "
+      "angles "
+      "of a spinning sensor, none takes no times");
   schema.add_choice<StampMeaning>(
       "stamp",
       options.stamp,
       {{"auto", StampMeaning::kAutomatic},
        {"begin", StampMeaning::kBegin},
        {"end", StampMeaning::kEnd}},
-      "What a scan's stamp dates: the begin or the end of its sweep");
+      "Whether a scan's stamp dates the begin or the end of its sweep");
   schema.add_choice<ClockChoice>(
       "clock",
       options.clock,
       {{"auto", ClockChoice::kAutomatic},
        {"header", ClockChoice::kHeader},
        {"record", ClockChoice::kRecord}},
-      "Of a bag's messages: the times in their headers or those of recording");
+      "Whether a bag's messages are dated by their headers or by their recording");
   schema.add(
       "bin_fields",
       options.bin_fields,
       {0.0, 6.0},
-      "Numbers a point in .bin files; 0: as they look");
-  schema.add("scan_rate", options.scan_rate, {0.01, 1000.0}, "Of files without any time [Hz]");
+      "A point in .bin files has this many numbers; with 0 as many as it looks like");
   schema.add(
-      "T_imu_lidar", options.T_imu_lidar, "x y z [m] qx qy qz qw; empty: as the sequence tells");
+      "scan_rate",
+      options.scan_rate,
+      {0.01, 1000.0},
+      "Files without any time are this many scans a second [Hz]");
+  schema.add(
+      "T_imu_lidar",
+      options.T_imu_lidar,
+      "The LiDAR in the IMU's frame, as x y z [m] qx qy qz qw; when empty, as the sequence tells");
 }
 
 Pose extrinsic(const SequenceOptions& options, const Pose& otherwise) {

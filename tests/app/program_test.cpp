@@ -69,6 +69,40 @@ TEST_F(ProgramTest, PrintedConfigurationReadsBack) {
   EXPECT_EQ(again.output, printed.output);
 }
 
+// The documentations among the comments of a configuration: what comes before "Allowed:".
+std::vector<std::string> documentations(const std::string& yaml) {
+  std::vector<std::string> found;
+  std::string comment;
+  std::istringstream lines(yaml);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t begin = line.find_first_not_of(' ');
+    if (line.compare(begin, 2, "# ") == 0) {
+      comment += (comment.empty() ? "" : " ") + line.substr(begin + 2);
+    } else {
+      if (const std::size_t end = comment.find(" Allowed:"); end != std::string::npos) {
+        found.push_back(comment.substr(0, end));
+      }
+      comment.clear();
+    }
+  }
+  return found;
+}
+
+TEST_F(ProgramTest, PrintedOptionsAreExplainedInWholePhrases) {
+  std::string run = nvm("run --print-config").output;
+  const std::size_t map = run.find("# The map.\n");
+  run.erase(map, run.find("# Normals of a scan.\n") - map);  // which nvm::MapOptions explains
+  for (const std::string& yaml : {run, nvm("simulate --print-options").output}) {
+    const std::vector<std::string> texts = documentations(yaml);
+    EXPECT_GT(texts.size(), 25U);
+    for (const std::string& text : texts) {
+      const std::string phrase = text.substr(0, text.find(" ["));
+      EXPECT_GE(std::count(phrase.begin(), phrase.end(), ' '), 3) << text;
+      EXPECT_THAT(phrase, ::testing::MatchesRegex("[A-Z][^:]*|With coupling: [a-z].*")) << text;
+    }
+  }
+}
+
 TEST_F(ProgramTest, BadInputGivesOneLineAndLeavesNothing) {
   expect_failure(run("--set map.voxel_sise=0.2"), "map.voxel_size");
   expect_failure(run("--set map.voxel_size=0"), "map.voxel_size");
@@ -136,6 +170,12 @@ TEST_F(ProgramTest, WrongArgumentsGiveOneLine) {
   expect_failure("fly", "no command fly (see");
   expect_failure("rnu", "did you mean run?");
   expect_failure("exprot a", "did you mean export?");
+  expect_failure("--versoin", "no option --versoin; did you mean --version? (see nvm --help)");
+  expect_failure("run a --outt=b", "no option --outt; did you mean --out? (see nvm run --help)");
+  expect_failure(
+      "evaluate a --alin none", "nvm evaluate has no option --alin; did you mean --align?");
+  expect_failure("run a --voxels 3", "nvm run has no option --voxels (see");
+  expect_failure("run a b --out c", "nvm run has no use for the argument b");
   expect_failure("run", "INPUT and --out");
   expect_failure("map " + path(""), "--poses");
   expect_failure("info", "MAP is required");
