@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/doing.hpp"
+#include "app/interruption.hpp"
 #include "app/say.hpp"
 #include "eval/evaluation.hpp"
 #include "eval/region.hpp"
@@ -100,12 +101,14 @@ void evaluate(EvaluateArguments& arguments) {
     }));
   }
   number_equal_names(evaluation.runs);
+  const Interruption interruption;
   eval::write_report(evaluation, arguments.folder);
   for (const eval::RunEvaluation& run : evaluation.runs) {
     print_remarks(run);
     print_summary(run);
   }
   fmt::print("{0}/report.html, {0}/evaluation.json\n", arguments.folder);
+  interruption.check(arguments.folder + " holds the whole report");
 }
 
 }  // namespace

@@ -3,16 +3,15 @@
 #include "app/export_command.hpp"
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <memory>
 #include <string>
 
 #include "app/doing.hpp"
+#include "app/interruption.hpp"
 #include "app/map_origin.hpp"
-#include "app/say.hpp"
+#include "app/results.hpp"
 #include "io/map_cloud.hpp"
 #include "io/map_files.hpp"
-#include "io/pending_path.hpp"
 #include "nvm/map/serialization.hpp"
 
 namespace nvm::app {
@@ -25,15 +24,14 @@ struct ExportArguments {
 };
 
 void write_cloud(const ExportArguments& arguments) {
-  for (const std::string& left : io::leftovers_of(arguments.cloud)) {
-    say("note: " + left + ": was left by a program that was killed; removed");
-    std::filesystem::remove(left);
-  }
+  doing("making way for " + arguments.cloud, [&] { remove_leftovers(arguments.cloud); });
   const Eigen::Vector3d origin = read_origin(arguments.map);
-  doing("exporting " + arguments.map, [&] {
-    io::write_map_cloud(
-        arguments.cloud, io::map_cloud_of(load_map(arguments.map).points(), origin));
+  const io::MapCloud cloud = doing("exporting " + arguments.map, [&] {
+    return io::map_cloud_of(load_map(arguments.map).points(), origin);
   });
+  const Interruption interruption;
+  doing("writing " + arguments.cloud, [&] { io::write_map_cloud(arguments.cloud, cloud); });
+  interruption.check(arguments.cloud + " is whole");
 }
 
 }  // namespace

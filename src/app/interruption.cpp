@@ -2,7 +2,11 @@
 // Copyright (c) 2026 The nvm authors
 #include "app/interruption.hpp"
 
+#include <unistd.h>
+
 #include <csignal>
+
+#include "app/failure.hpp"
 
 namespace nvm::app {
 
@@ -23,6 +27,14 @@ void replace_handlers(void (*from)(int), void (*to)(int)) {
   }
 }
 
+/// Ends the process by the signal; only what a signal handler may do.
+void leave(int signal) {
+  constexpr char kMessage[] = "\nnvm: interrupted; nothing was written\n";
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kMessage, sizeof kMessage - 1);
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
 void note(int signal) {
   noted = signal;
   replace_handlers(note, SIG_DFL);
@@ -30,13 +42,21 @@ void note(int signal) {
 
 }  // namespace
 
+void say_when_interrupted() { replace_handlers(SIG_DFL, leave); }
+
 Interruption::Interruption() {
   noted = 0;
-  replace_handlers(SIG_DFL, note);
+  replace_handlers(leave, note);
 }
 
-Interruption::~Interruption() { replace_handlers(note, SIG_DFL); }
+Interruption::~Interruption() { replace_handlers(note, leave); }
 
 int Interruption::signal() const { return noted; }
+
+void Interruption::check(const std::string& left) const {
+  if (noted != 0) {
+    throw Failure("interrupted: " + left, kExitSignal + noted);
+  }
+}
 
 }  // namespace nvm::app

@@ -2,11 +2,17 @@
 // Copyright (c) 2026 The nvm authors
 #pragma once
 
+#include <string>
+
 namespace nvm::app {
 
-/// While it lives, the first SIGINT, SIGTERM or SIGHUP is only noted, so that what was done can be
-/// brought to its end; the second ends the process at once. Signals that the process was told to
-/// ignore stay ignored. One at a time.
+/// From now on the first SIGINT, SIGTERM or SIGHUP ends the process with a line that says so,
+/// unless an Interruption lives. Signals that the process was told to ignore stay ignored.
+void say_when_interrupted();
+
+/// While it lives, after say_when_interrupted(), the first SIGINT, SIGTERM or SIGHUP is only noted,
+/// so that what was done can be brought to its end; the second ends the process at once. One at a
+/// time.
 class Interruption {
  public:
   Interruption();
@@ -16,6 +22,8 @@ class Interruption {
 
   /// The signal that came; 0: none.
   int signal() const;
+  /// Throws Failure when one came, with what is `left` then.
+  void check(const std::string& left) const;
 };
 
 }  // namespace nvm::app

@@ -14,6 +14,7 @@
 #include "app/export_command.hpp"
 #include "app/failure.hpp"
 #include "app/info_command.hpp"
+#include "app/interruption.hpp"
 #include "app/map_command.hpp"
 #include "app/run_command.hpp"
 #include "app/say.hpp"
@@ -118,6 +119,7 @@ int report(const std::string& message, int status) {
 
 int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file that gets too large is an error like a full disk
+  nvm::app::say_when_interrupted();
   try {
     return nvm::app::doing("working", [&] { return run(argc, argv); });
   } catch (const nvm::app::Failure& failure) {

@@ -16,6 +16,7 @@
 #include "app/say.hpp"
 #include "io/file.hpp"
 #include "io/map_files.hpp"
+#include "io/pending_path.hpp"
 
 namespace nvm::app {
 
@@ -38,6 +39,13 @@ void check_apart(const std::string& input, const std::string& folder) {
 void announce_unfinished(const io::ResultFolder& results) {
   for (const std::string& path : results.unfinished()) {
     say("note: " + path + ": was left by a run that was killed; it goes when this one is complete");
+  }
+}
+
+void remove_leftovers(const std::string& path) {
+  for (const std::string& left : io::leftovers_of(path)) {
+    say("note: " + left + ": was left by a program that was killed; removed");
+    fs::remove_all(left);
   }
 }
 

@@ -21,6 +21,9 @@ void check_apart(const std::string& input, const std::string& folder);
 /// Says what runs that were killed have left, in one line each.
 void announce_unfinished(const io::ResultFolder& results);
 
+/// Removes the temporary files and folders that killed programs have left for `path`, and says so.
+void remove_leftovers(const std::string& path);
+
 /// Prints what the reader noticed.
 void print_notes(const io::SequenceInfo& info);
 

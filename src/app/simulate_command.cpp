@@ -10,6 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "app/doing.hpp"
+#include "app/interruption.hpp"
+#include "app/results.hpp"
 #include "config/schema.hpp"
 #include "sim/scene_file.hpp"
 #include "sim/sensor_model.hpp"
@@ -47,7 +50,12 @@ void simulate(const SimulateArguments& arguments, const sim::SimulationOptions& 
   if (arguments.scene.empty() || arguments.folder.empty()) {
     throw CLI::RequiredError("each of SCENE and --out");
   }
-  const auto summary = sim::simulate(sim::load_scene(arguments.scene), options, arguments.folder);
+  const sim::Scene scene = sim::load_scene(arguments.scene);
+  const Interruption interruption;
+  doing("making way for " + arguments.folder, [&] { remove_leftovers(arguments.folder); });
+  const auto summary = sim::simulate(scene, options, arguments.folder, [&] {
+    interruption.check("nothing is left in " + arguments.folder);
+  });
   fmt::print(
       "{}: {} scans, {} points, {} IMU samples, {:.1f} s, {:.1f} m\n",
       arguments.folder,
@@ -56,6 +64,7 @@ void simulate(const SimulateArguments& arguments, const sim::SimulationOptions& 
       summary.imu_samples,
       summary.duration,
       summary.path_length);
+  interruption.check(arguments.folder + " is whole");
 }
 
 void run(const SimulateArguments& arguments) {

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "app/doing.hpp"
+#include "app/interruption.hpp"
 #include "app/map_origin.hpp"
 #include "app/say.hpp"
 #include "io/file.hpp"
@@ -73,10 +74,12 @@ void list_walls(const WallsArguments& arguments) {
         arguments.options.min_area,
         cloud.positions.size()));
   }
+  const Interruption interruption;
   doing("writing " + arguments.folder, [&] {
     survey::write_survey(found, arguments.options.plan_height, arguments.folder);
   });
   print_summary(found, arguments.folder);
+  interruption.check(arguments.folder + " holds all results");
 }
 
 }  // namespace

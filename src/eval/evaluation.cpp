@@ -92,11 +92,11 @@ std::string folder_name(const std::string& folder) {
 }  // namespace
 
 Truth read_truth(const std::string& path, double time_offset) {
-  if (fs::is_regular_file(path)) {
-    return {shifted(io::read_tum(path), time_offset), {}};
-  }
   if (!fs::exists(path)) {
     io::fail(path, "does not exist");
+  }
+  if (!fs::is_directory(path)) {
+    return {shifted(io::read_tum(path), time_offset), {}};
   }
   const std::string scene = (fs::path(path) / "scene.json").string();
   return {
@@ -121,7 +121,7 @@ WallSummary summarize(const std::vector<WallEvaluation>& walls) {
 
 RunEvaluation evaluate_run(
     const std::string& run, const std::optional<Truth>& truth, const EvaluationOptions& options) {
-  const bool is_trajectory = fs::is_regular_file(run);
+  const bool is_trajectory = fs::exists(run) && !fs::is_directory(run);
   const fs::path folder = is_trajectory ? fs::path(run).parent_path() : fs::path(run);
   const std::string map = (folder / "map.ply").string();
   RunEvaluation result;

@@ -15,8 +15,7 @@
 namespace nvm::io {
 
 /// Writes an nvm sequence folder (docs/formats.md), one scan at a time. Everything goes to
-/// "<folder>.partial", which commit() renames: a folder with the final name is always whole.
-/// Without commit() nothing is left.
+/// a PendingPath: a folder with the final name is always whole. Without commit() nothing is left.
 ///
 /// Every member throws std::runtime_error, naming the file, when it cannot be written.
 class NvmSequenceWriter {

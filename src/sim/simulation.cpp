@@ -48,7 +48,11 @@ double length_of(const Trajectory& trajectory) {
 
 /// Adds the scans in order, computing some of them at once.
 void write_scans(
-    const Lidar& lidar, std::size_t scans, io::NvmSequenceWriter& writer, SurfaceHits& hits) {
+    const Lidar& lidar,
+    std::size_t scans,
+    const std::function<void()>& check,
+    io::NvmSequenceWriter& writer,
+    SurfaceHits& hits) {
   for (std::size_t first = 0; first < scans; first += kScansAtOnce) {
     std::vector<SimulatedScan> batch(std::min(kScansAtOnce, scans - first));
     TbbExecutor().for_blocks(batch.size(), 1, [&](std::size_t begin, std::size_t) {
@@ -58,13 +62,17 @@ void write_scans(
       writer.add_scan(simulated.scan);
       hits.count(simulated);
     }
+    check();
   }
 }
 
 }  // namespace
 
 SimulationSummary simulate(
-    const Scene& scene, const SimulationOptions& options, const std::string& folder) {
+    const Scene& scene,
+    const SimulationOptions& options,
+    const std::string& folder,
+    const std::function<void()>& check) {
   const SensorModel& sensor = find_sensor(options.sensor);
   const Motion motion(scene.route, options.motion, options.seed, options.duration);
   const RayCaster rays(scene);
@@ -77,7 +85,7 @@ SimulationSummary simulate(
   facts.scans =
       static_cast<std::size_t>(std::floor(motion.duration() * options.lidar.scan_rate + 1e-6));
   SurfaceHits hits(scene);
-  write_scans(lidar, facts.scans, writer, hits);
+  write_scans(lidar, facts.scans, check, writer, hits);
   const auto imu = simulate_imu(motion, options.imu, options.seed);
   writer.write_imu(imu);
   const Trajectory truth = true_trajectory(motion, facts.scans, options.lidar.scan_rate);

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include "sim/imu.hpp"
@@ -47,8 +48,12 @@ struct SimulationSummary {
 ///
 /// Throws std::invalid_argument for an unknown sensor or a scene without a route, and
 /// std::runtime_error when the route is blocked, `folder` exists or cannot be written; nothing is
-/// left of the folder then.
+/// left of the folder then. The same holds for what `check` throws, which is called every few
+/// scans.
 SimulationSummary simulate(
-    const Scene& scene, const SimulationOptions& options, const std::string& folder);
+    const Scene& scene,
+    const SimulationOptions& options,
+    const std::string& folder,
+    const std::function<void()>& check = [] {});
 
 }  // namespace nvm::sim

@@ -72,7 +72,7 @@ class ProgramFixture : public TemporaryFolder {
                                 path("output") + " 2>" + path("errors");
     const int status = std::system(command.c_str());
     return {
-        WIFEXITED(status) ? WEXITSTATUS(status) : -1,
+        WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status),
         text_of(path("output")),
         text_of(path("errors"))};
   }

@@ -3,6 +3,7 @@
 
 // What the program leaves behind, and its exit status, when a run does not go as it should.
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include <cmath>
 #include <filesystem>
@@ -55,14 +56,19 @@ class ResultsTest : public test::ProgramFixture {
     write("timestamps.txt", times);
   }
 
-  // Runs the program and sends it `signal` as soon as a scan has been tracked.
+  // Runs the program and sends it `signal` as soon as the shell's `condition` holds.
+  Outcome nvm_until(
+      const std::string& condition, const std::string& arguments, const std::string& signal) const {
+    return nvm(
+        arguments,
+        "(while ! " + condition + "; do sleep 0.05; done; kill -" + signal + " $(cat " +
+            path("pid") + ")) & exec env --default-signal=INT sh -c 'echo $$ >" + path("pid") +
+            "; exec \"$0\" \"$@\"' ");
+  }
+
   Outcome run_until(const std::string& signal) const {
     const std::string frames = path("out") + "/nvm-results.part-*/frames.csv";
-    return nvm(
-        run(""),
-        "(while ! grep -qs tracking " + frames + "; do sleep 0.05; done; kill -" + signal +
-            " $(cat " + path("pid") + ")) & exec env --default-signal=INT sh -c 'echo $$ >" +
-            path("pid") + "; exec \"$0\" \"$@\"' ");
+    return nvm_until("grep -qs tracking " + frames, run(""), signal);
   }
 };
 
@@ -120,6 +126,33 @@ TEST_F(ResultsTest, ASignalFinishesTheFilesOfTheScansUntilThen) {
     EXPECT_GE(poses, 1U);
     EXPECT_LT(poses, static_cast<std::size_t>(kLong));
     std::filesystem::remove_all(path("out"));
+  }
+}
+
+TEST_F(ResultsTest, ASignalLeavesNothingOfASimulationNorOfAKilledOneBefore) {
+  const std::string simulate =
+      "simulate wall10 --set lidar.scan_rate=100 --out " + path("sequences/wall");
+  const std::string list =
+      "ls " + path("sequences") + "/wall.part-*/scans/*0.bin 2>" + path("null") + " | grep ";
+  nvm_until(list + "-q bin", simulate, "KILL");
+  ASSERT_EQ(names_in("sequences").size(), 1U);
+  const std::string left = names_in("sequences")[0];
+  const Outcome outcome = nvm_until(list + "-qv " + left, simulate, "INT");
+  EXPECT_EQ(outcome.status, 130) << outcome.errors;
+  EXPECT_THAT(outcome.errors, HasSubstr(left + ": was left"));
+  EXPECT_THAT(outcome.errors, HasSubstr("interrupted: nothing is left"));
+  EXPECT_THAT(names_in("sequences"), ::testing::IsEmpty());
+}
+
+TEST_F(ResultsTest, ASignalBeforeAnythingIsWrittenSaysSo) {
+  ASSERT_EQ(::mkfifo(path("fifo.tum").c_str(), 0600), 0);  // which nobody writes to
+  const std::string evaluate =
+      "evaluate " + path("poses.tum") + " --truth " + path("fifo.tum") + " --out " + path("out");
+  for (const std::string& arguments : {evaluate, map("fifo.tum")}) {
+    const Outcome outcome = nvm_until("sleep 0.3", arguments, "INT");
+    EXPECT_EQ(outcome.status, 130) << outcome.errors;
+    EXPECT_THAT(outcome.errors, HasSubstr("interrupted; nothing was written"));
+    EXPECT_FALSE(std::filesystem::exists(path("out")));
   }
 }
 
