@@ -56,7 +56,7 @@ Ending process(
     RunSummary& summary) {
   return use_scans(reader, interruption, [&](const lio::Scan& scan) {
     const lio::FrameResult frame = process_scan(scan);
-    summary.add(frame);
+    summary.add(frame, scan.points.size());
     files.add(frame);
     return lio::name(frame.status);
   });
@@ -78,7 +78,7 @@ void run(const RunArguments& arguments, RunOptions& options) {
   io::ResultFolder results(arguments.folder);
   announce_unfinished(results);
   const auto begin = std::chrono::steady_clock::now();
-  RunSummary summary;
+  RunSummary summary(options.pipeline.inertial.returns.max_count);
   const double imu_time_offset = options.pipeline.inertial.imu_input.time_offset;
   const auto process_scan = [&](const lio::Scan& scan) {
     for (const lio::ImuSample& sample : reader->imu_until(scan.t_end - imu_time_offset)) {
@@ -106,7 +106,7 @@ void run(const RunArguments& arguments, RunOptions& options) {
       pipeline->map().size(),
       wall.count());
   check_ending(ending, arguments.folder);
-  check_usable(summary, arguments.folder);
+  check_usable(summary, pipeline->map().size(), arguments.folder);
 }
 
 }  // namespace

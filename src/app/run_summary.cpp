@@ -16,11 +16,21 @@ bool has_pose(const FrameResult& frame) {
   return lio::is_believed(frame.status) || frame.status == FrameStatus::kWeak;
 }
 
-void RunSummary::add(const FrameResult& frame) {
-  if (frames_ == 0) {
-    begin_ = frame.time;
+void RunSummary::note_pause(double time) {
+  begin_ = frames_ == 0 ? time : begin_;
+  if (frames_ > 0 && time - end_ > longest_pause_) {
+    longest_pause_ = time - end_;
+    longest_pause_begin_ = end_;
   }
+  end_ = time;
+}
+
+void RunSummary::add(const FrameResult& frame, std::size_t returns) {
+  note_pause(frame.time);
   ++frames_;
+  if (frame.status != FrameStatus::kInitializing && frame.status != FrameStatus::kSkipped) {
+    returns_ += std::min(returns, max_points_);
+  }
   poses_ += has_pose(frame) ? 1 : 0;
   inserted_.add(frame.points, frame.inserted);
   usable_ += frame.status == FrameStatus::kTracking ? 1 : 0;
@@ -43,20 +53,33 @@ void RunSummary::add(const FrameResult& frame) {
   }
 }
 
+std::string RunSummary::describe(const Trouble& trouble) const {
+  return fmt::format(
+      "{} of {} scans {} ({}): {}; {}",
+      trouble.spans.count(),
+      frames_,
+      lio::name(trouble.status),
+      trouble.meaning,
+      trouble.spans.describe(begin_),
+      trouble.first_message);
+}
+
+std::string RunSummary::main_trouble() const {
+  const auto most =
+      std::max_element(troubles_.begin(), troubles_.end(), [](const Trouble& a, const Trouble& b) {
+        return a.spans.count() < b.spans.count();
+      });
+  return most->spans.count() > 0 ? describe(*most) : "";
+}
+
 std::vector<std::string> RunSummary::warnings() const {
   std::vector<std::string> warnings;
+  add_input_warnings(warnings);
   for (const Trouble& trouble : troubles_) {
     // Every run with an IMU begins without a pose; that is only told of one that got none.
     const bool is_usual = trouble.status == FrameStatus::kInitializing && poses_ > 0;
     if (trouble.spans.count() > 0 && !is_usual) {
-      warnings.push_back(fmt::format(
-          "{} of {} scans {} ({}): {}; {}",
-          trouble.spans.count(),
-          frames_,
-          lio::name(trouble.status),
-          trouble.meaning,
-          trouble.spans.describe(begin_),
-          trouble.first_message));
+      warnings.push_back(describe(trouble));
     }
   }
   if (unobserved_.count() > 0) {
@@ -78,6 +101,27 @@ std::string RunSummary::unobserved_directions() const {
   };
   return text(", mostly along", unobserved_along_.axis()) +
          text(", turning about", unobserved_about_.axis());
+}
+
+void RunSummary::add_input_warnings(std::vector<std::string>& warnings) const {
+  constexpr double kLeastPause = 0.5;     // [s]
+  constexpr double kUsualPauses = 5.0;    // that the longest one is worth a word beyond
+  constexpr std::size_t kLeastShare = 4;  // of the returns: one in so many is used
+  const double usual_pause =
+      (end_ - begin_) / static_cast<double>(std::max<std::size_t>(1, frames_));
+  if (longest_pause_ > std::max(kLeastPause, kUsualPauses * usual_pause)) {
+    warnings.push_back(fmt::format(
+        "no scan came for {:.1f} s after {:.1f} s (dropped messages?): without an IMU the way "
+        "between is a guess",
+        longest_pause_,
+        longest_pause_begin_ - begin_));
+  }
+  if (kLeastShare * inserted_.points < returns_) {
+    warnings.push_back(fmt::format(
+        "{:.0f} % of the returns lie nearer than lidar.min_range or farther than lidar.max_range: "
+        "are coordinates in metres?",
+        100.0 * (1.0 - static_cast<double>(inserted_.points) / static_cast<double>(returns_))));
+  }
 }
 
 void RunSummary::add_map_warnings(std::vector<std::string>& warnings) const {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,12 @@ bool has_pose(const lio::FrameResult& frame);
 /// What a run's frames said, summed up: takes the same memory for any number of them.
 class RunSummary {
  public:
-  void add(const lio::FrameResult& frame);
+  /// `max_points`: of a scan that are used, lidar.max_points.
+  explicit RunSummary(std::size_t max_points = std::numeric_limits<std::size_t>::max())
+      : max_points_(max_points) {}
+
+  /// `returns`: of the frame's scan, before any is left out.
+  void add(const lio::FrameResult& frame, std::size_t returns);
 
   std::size_t frames() const { return frames_; }
   std::size_t poses() const { return poses_; }
@@ -31,6 +37,9 @@ class RunSummary {
   std::size_t usable() const { return usable_; }
 
   const InsertTotals& inserted() const { return inserted_; }
+
+  /// What is wrong with most of the frames that have no trustworthy pose; empty for none.
+  std::string main_trouble() const;
 
   /// What was not in order, one line each.
   std::vector<std::string> warnings() const;
@@ -59,13 +68,21 @@ class RunSummary {
   };
 
   double mean(const StageSummary& summary) const;
+  void note_pause(double time);
+  std::string describe(const Trouble& trouble) const;
+  void add_input_warnings(std::vector<std::string>& warnings) const;
   std::string unobserved_directions() const;
   void add_map_warnings(std::vector<std::string>& warnings) const;
 
+  std::size_t max_points_;
   std::size_t frames_ = 0;
   std::size_t poses_ = 0;
   std::size_t usable_ = 0;
-  double begin_ = 0.0;  ///< time of the first frame [s]
+  double begin_ = 0.0;                ///< time of the first frame [s]
+  double end_ = 0.0;                  ///< and of the last
+  double longest_pause_ = 0.0;        ///< between two frames [s]
+  double longest_pause_begin_ = 0.0;  ///< [s]
+  std::size_t returns_ = 0;           ///< that would have been used within the limits of range
   InsertTotals inserted_;
   std::array<Trouble, 4> troubles_ = {
       {{lio::FrameStatus::kInitializing, "they have no pose"},

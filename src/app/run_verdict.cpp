@@ -18,7 +18,7 @@ std::string why_useless(const RunSummary& summary, const Ending& ending) {
     return "has no scans";
   }
   if (summary.poses() == 0) {
-    return "no scan got a pose: " + summary.warnings().front();
+    return "no scan got a pose: " + summary.main_trouble();
   }
   return "the map has no points: " + summary.inserted().why_empty();
 }
@@ -39,7 +39,16 @@ void check_useful(
   throw Failure(input + ": " + why_useless(summary, ending), kExitError);
 }
 
-void check_usable(const RunSummary& summary, const std::string& folder) {
+void check_usable(const RunSummary& summary, std::size_t map_points, const std::string& folder) {
+  if (map_points < summary.poses()) {
+    throw Failure(
+        fmt::format(
+            "{}: the map has {} points after {} poses, so that there is next to none",
+            folder,
+            map_points,
+            summary.poses()),
+        kExitUnusable);
+  }
   if (2 * summary.usable() < summary.frames()) {
     throw Failure(
         fmt::format(

@@ -18,7 +18,8 @@ void check_useful(
     const Ending& ending,
     const std::string& input);
 
-/// Throws Failure with kExitUnusable when fewer than half of the frames are usable.
-void check_usable(const RunSummary& summary, const std::string& folder);
+/// Throws Failure with kExitUnusable when fewer than half of the frames are usable, or the map has
+/// fewer points than there are poses.
+void check_usable(const RunSummary& summary, std::size_t map_points, const std::string& folder);
 
 }  // namespace nvm::app

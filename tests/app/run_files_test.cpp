@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "app/failure.hpp"
+#include "app/run_verdict.hpp"
 #include "io/temporary_folder.hpp"
 #include "io/trajectory_io.hpp"
 #include "support/rng.hpp"
@@ -102,7 +104,7 @@ TEST_F(RunFilesTest, TimingSumsFramesUp) {
   auto rng = test::rng();
   RunSummary summary;
   for (const FrameResult& frame : random_frames(17, rng)) {
-    summary.add(frame);
+    summary.add(frame, frame.points);
   }
   write_timing(path(""), summary, 3.5);
   std::ifstream file(path("timing.json"));
@@ -118,7 +120,7 @@ TEST(RunSummaryTest, AgreesWithAllFramesTogether) {
   double sum = 0.0;
   double max = 0.0;
   for (const FrameResult& frame : frames) {
-    summary.add(frame);
+    summary.add(frame, frame.points);
     sum += frame.times.total();
     max = std::max(max, frame.times.total());
   }
@@ -138,7 +140,7 @@ TEST(RunSummaryTest, WarnsOfEachKindOfTroubleWithItsFirstFrame) {
   RunSummary summary;
   EXPECT_TRUE(summary.warnings().empty());
   for (const FrameResult& frame : frames) {
-    summary.add(frame);
+    summary.add(frame, frame.points);
   }
   const std::vector<std::string> warnings = summary.warnings();
   ASSERT_EQ(warnings.size(), 4U);
@@ -168,7 +170,7 @@ RunSummary summary_of(const std::string& letters) {
                                    : FrameStatus::kTracking;
     frame.degenerate_directions = letter == 'T' || letter == 'd' ? 2 : 0;
     frame.message = letter == 't' ? "" : "why";
-    summary.add(frame);
+    summary.add(frame, frame.points);
   }
   return summary;
 }
@@ -192,7 +194,7 @@ TEST(RunSummaryTest, NamesTheDirectionsThatScansDoNotTell) {
   for (const double sign : {1.0, -1.0, 1.0}) {
     frame.unobserved.translations = {sign * Eigen::Vector3d(0.6, -0.8, 0.0)};
     frame.unobserved.rotations = {sign * Eigen::Vector3d::UnitZ()};
-    summary.add(frame);
+    summary.add(frame, frame.points);
     frame.time += 0.1;
   }
   EXPECT_THAT(
@@ -209,6 +211,58 @@ TEST(RunSummaryTest, TellsTheLongestTimesOfMany) {
       ::testing::HasSubstr("0.2 to 0.4 s, 0.8 to 1.2 s, 1.6 to 1.7 s, 1.9 to 2.2 s and 3 shorter"));
 }
 
+TEST(RunSummaryTest, NamesTheLongestPauseBetweenScans) {
+  const auto with_pause = [](double pause) {
+    RunSummary summary;
+    FrameResult frame;
+    frame.status = FrameStatus::kTracking;
+    for (int i = 0; i < 40; ++i) {
+      frame.time = 1.7e9 + 0.1 * i + (i < 12 ? 0.0 : pause);
+      summary.add(frame, 0);
+    }
+    return summary.warnings();
+  };
+  EXPECT_TRUE(with_pause(0.3).empty());  // a few dropped scans
+  EXPECT_THAT(
+      with_pause(1.4),
+      ::testing::ElementsAre(::testing::HasSubstr("no scan came for 1.5 s after 1.1 s")));
+}
+
+TEST(RunSummaryTest, NamesReturnsThatAreAlmostAllOutOfRange) {
+  const auto with_points = [](std::size_t points, FrameStatus status) {
+    RunSummary summary(2000);
+    FrameResult frame;
+    frame.status = status;
+    frame.points = points;
+    summary.add(frame, 5000);  // which would be thinned to 2000
+    return summary.warnings();
+  };
+  EXPECT_TRUE(with_points(600, FrameStatus::kTracking).empty());
+  EXPECT_THAT(
+      with_points(100, FrameStatus::kTracking),
+      ::testing::ElementsAre(::testing::StartsWith("95 % of the returns lie nearer than")));
+  EXPECT_THAT(
+      with_points(0, FrameStatus::kInitializing),  // which counts no points
+      ::testing::ElementsAre(::testing::HasSubstr("initializing")));
+}
+
+TEST(RunVerdictTest, AMapOfNextToNoPointsIsNotUsable) {
+  const RunSummary summary = summary_of("ttttt");
+  EXPECT_NO_THROW(check_usable(summary, 5, "out"));
+  try {
+    check_usable(summary, 4, "out");
+    FAIL();
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.status(), kExitUnusable);
+    EXPECT_THAT(failure.what(), ::testing::HasSubstr("4 points after 5 poses"));
+  }
+}
+
+TEST(RunSummaryTest, TheMainTroubleIsThatOfMostFrames) {
+  EXPECT_THAT(summary_of("iitwwwl").main_trouble(), ::testing::StartsWith("3 of 7 scans weak"));
+  EXPECT_EQ(summary_of("ttt").main_trouble(), "");
+}
+
 TEST(RunSummaryTest, UsableFramesDoNotSlideForLong) {
   EXPECT_EQ(summary_of("iitttTddwl").usable(), 4U);
   EXPECT_EQ(summary_of("iitttTddwl").counts(), "2 initializing, 1 weak, 1 lost, 2 degenerate");
@@ -221,12 +275,12 @@ TEST(RunSummaryTest, WarnsOfPointsThatAreNotInTheMap) {
   frame.points = 100;
   frame.inserted.out_of_range = 70;
   frame.inserted.no_normal = 30;
-  summary.add(frame);
-  summary.add(frame);
+  summary.add(frame, frame.points);
+  summary.add(frame, frame.points);
   EXPECT_THAT(summary.warnings(), ::testing::ElementsAre(::testing::StartsWith("140 points")));
   EXPECT_THAT(summary.inserted().why_empty(), ::testing::StartsWith("140 of 200 returns lie more"));
   frame.inserted.no_normal = 1000;
-  summary.add(frame);
+  summary.add(frame, frame.points);
   EXPECT_THAT(summary.inserted().why_empty(), ::testing::HasSubstr("no surface"));
   EXPECT_THAT(InsertTotals().why_empty(), ::testing::HasSubstr("lidar.min_range"));
 }
