@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <initializer_list>
 #include <stdexcept>
+#include <string_view>
 
 #include "io/file.hpp"
 #include "io/message_pipe.hpp"
@@ -19,24 +21,73 @@ namespace nvm::io {
 
 namespace {
 
-bool is_ros2_bag(const std::string& path) {
-  const std::string metadata = path + "/metadata.yaml";
+bool has_ros2_extension(const std::string& path) {
   const std::string extension = extension_of(path);
-  return extension == ".mcap" || extension == ".db3" ||
-         (std::filesystem::exists(metadata) &&
-          read_file(metadata).find("rosbag2_bagfile_information") != std::string::npos);
+  return extension == ".mcap" || extension == ".db3";
 }
 
-/// The .bag files in a folder, in the order of their names.
-std::vector<std::string> bags_in(const std::string& folder) {
-  std::vector<std::string> bags;
+/// The regular files in a folder, in the order of their names.
+std::vector<std::string> files_in(const std::string& folder) {
+  std::vector<std::string> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (entry.is_regular_file() && extension_of(entry.path().string()) == ".bag") {
-      bags.push_back(entry.path().string());
+    if (entry.is_regular_file()) {
+      files.push_back(entry.path().string());
     }
   }
-  std::sort(bags.begin(), bags.end(), precedes_naturally);
+  std::sort(files.begin(), files.end(), precedes_naturally);
+  return files;
+}
+
+bool is_ros2_bag(const std::string& path) {
+  if (!std::filesystem::is_directory(path)) {
+    return has_ros2_extension(path);
+  }
+  const std::string metadata = path + "/metadata.yaml";
+  if (std::filesystem::exists(metadata) &&
+      read_file(metadata).find("rosbag2_bagfile_information") != std::string::npos) {
+    return true;
+  }
+  const std::vector<std::string> files = files_in(path);
+  return std::any_of(files.begin(), files.end(), has_ros2_extension) &&
+         std::none_of(files.begin(), files.end(), is_scan_file);
+}
+
+/// Whether the file is a ROS 1 bag, whatever its name: "run.bag.active" is one that was not closed.
+bool begins_as_bag(const std::string& path) {
+  constexpr std::string_view kMagic = "#ROSBAG V";
+  std::string begin(kMagic.size(), '\0');
+  open_to_read(path).read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  return begin == kMagic;
+}
+
+/// The bags in a folder, in the order of their names.
+std::vector<std::string> bags_in(const std::string& folder) {
+  std::vector<std::string> bags;
+  for (const std::string& path : files_in(folder)) {
+    const std::string extension = extension_of(path);
+    if (extension == ".bag" || (extension == ".active" && begins_as_bag(path))) {
+      bags.push_back(path);
+    }
+  }
   return bags;
+}
+
+/// What makes a sequence of a file that is none; empty when that is not known.
+std::string remedy(const std::string& path) {
+  const std::string extension = extension_of(path);
+  const auto is_one_of = [&](std::initializer_list<const char*> extensions) {
+    return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
+  };
+  if (is_one_of({".pcap", ".pcapng", ".osf"})) {
+    return ". It holds the sensor's packets: the maker's driver or tools write a ROS bag or scans";
+  }
+  if (is_one_of({".las", ".laz", ".e57", ".xyz", ".txt", ".csv", ".npy", ".npz", ".pts"})) {
+    return ". CloudCompare or PDAL make PLY or PCD files of points";
+  }
+  if (is_one_of({".gz", ".bz2", ".xz", ".zst", ".lz4", ".zip", ".tar", ".tgz", ".7z"})) {
+    return ". It is packed: unpack it first";
+  }
+  return "";
 }
 
 std::unique_ptr<SequenceReader> open_folder(
@@ -73,16 +124,17 @@ std::unique_ptr<SequenceReader> open_sequence(
   if (std::filesystem::is_directory(path)) {
     return open_folder(path, options);
   }
-  if (extension_of(path) == ".bag") {
-    return open_ros_bags({path}, options);
-  }
   if (is_scan_file(path)) {
     return open_scan_folder(path, options);
+  }
+  if (extension_of(path) == ".bag" || begins_as_bag(path)) {
+    return open_ros_bags({path}, options);
   }
   fail(
       path,
       "is no sequence: expected a folder of scans, a .pcd, .ply or .bin scan, an nvm sequence "
-      "folder, or a .bag file or a folder of them");
+      "folder, or a .bag file or a folder of them" +
+          remedy(path));
 }
 
 }  // namespace nvm::io

@@ -271,23 +271,6 @@ TEST_F(ScanFolder, ScansThatGoBackAreLeftOut) {
   EXPECT_THAT(reader->info().notes, Contains(HasSubstr("2.pcd: begins no later than")));
 }
 
-TEST_F(ScanFolder, OtherPathsAreNoSequence) {
-  EXPECT_THAT(
-      runtime_error_of([&] { open_sequence(path("none")); }), HasSubstr("none: does not exist"));
-  EXPECT_THAT(
-      runtime_error_of([&] { open_sequence(write("a.txt", "")); }), HasSubstr("is no sequence"));
-}
-
-TEST_F(ScanFolder, Ros2BagsAreSentToTheConverter) {
-  write_scans({"a.bin"});
-  write("metadata.yaml", "author: somebody\n");
-  EXPECT_EQ(times().size(), 1U);
-  write("metadata.yaml", "rosbag2_bagfile_information:\n  version: 9\n");
-  EXPECT_THAT(error(), HasSubstr("docs/python.md"));
-  EXPECT_THAT(
-      runtime_error_of([&] { open_sequence(write("a.mcap", "")); }), HasSubstr("docs/python.md"));
-}
-
 TEST(RealScans, AllAreRead) {
   const std::string data = test::real_data();
   if (data.empty()) {
