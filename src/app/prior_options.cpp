@@ -138,10 +138,6 @@ std::unique_ptr<lio::Pipeline> make_prior_pipeline(
       say("note: " + arguments.map + " keeps its own options: " + text);
     }
     const std::optional<lio::Start> start = start_from(arguments.start, origin_of(arguments));
-    if (!start) {
-      say("note: the start is searched in " + arguments.map +
-          ": among rooms that look alike it may be a wrong one; --start x,y,z,yaw is safe");
-    }
     return std::make_unique<lio::PriorPipeline>(options, std::move(map), start, arguments.extends);
   });
 }

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <sstream>
 #include <utility>
+
+#include "lio/place_judge.hpp"
+#include "lio/scan_witness.hpp"
 
 namespace nvm::lio {
 
@@ -17,10 +19,6 @@ constexpr std::size_t kMinKeypoints = 100;
 constexpr const char* kTooFew = "the scan shows too few surfaces";
 /// Furniture that was moved and people are in the way of some of a scan, never of most of it.
 constexpr double kMinShare = 0.6;
-/// Where nobody says where to look, more of it must fit, and at any other place it must lie so many
-/// times farther off.
-constexpr double kMinShareAnywhere = 0.75;
-constexpr double kMaxRivalry = 1.5;
 
 /// A coarse alignment leaves a few centimetres, as does a scan made in motion.
 AlignOptions fine_options() {
@@ -47,13 +45,6 @@ std::vector<Pose> around(const Pose& guess) {
   return guesses;
 }
 
-std::string misfit(double share, double min_share) {
-  std::ostringstream text;
-  text << std::round(100.0 * share) << " % of the scan fit the map there, and "
-       << std::round(100.0 * min_share) << " % must";
-  return text.str();
-}
-
 bool is_elsewhere(const Pose& a, const Pose& b) {
   constexpr double kFar = 0.5;     // [m]
   constexpr double kTurned = 0.2;  // [rad]
@@ -61,20 +52,13 @@ bool is_elsewhere(const Pose& a, const Pose& b) {
          so3_log(a.linear().transpose() * b.linear()).norm() > kTurned;
 }
 
-/// The best of `places`, found unless another one is about as good, or it slides.
-Place judged(const std::vector<Place>& places) {
-  Place best = places.front();
-  const auto rival = std::find_if(places.begin(), places.end(), [&](const Place& place) {
-    return is_elsewhere(place.T_map_scan, best.T_map_scan);
+bool is_new(const Pose& pose, const std::vector<Pose>& poses) {
+  constexpr double kNear = 0.2;   // [m]
+  constexpr double kAlike = 0.1;  // [rad]
+  return std::none_of(poses.begin(), poses.end(), [&](const Pose& other) {
+    return (pose.translation() - other.translation()).norm() < kNear &&
+           so3_log(pose.linear().transpose() * other.linear()).norm() < kAlike;
   });
-  if (best.share < kMinShareAnywhere) {
-    best.why_not = "at the best place " + misfit(best.share, kMinShareAnywhere);
-  } else if (best.open_directions > 0) {
-    best.why_not = "the scan does not tell all directions of its pose, as in a corridor";
-  } else if (rival != places.end() && rival->cost < kMaxRivalry * best.cost) {
-    best.why_not = "two places look alike: show the sensor more of the surroundings";
-  }
-  return best;
 }
 
 }  // namespace
@@ -148,18 +132,37 @@ std::vector<Pose> PlaceSearch::guesses_for(const Eigen::Matrix3d& R_level_scan) 
   return guesses;
 }
 
-Place PlaceSearch::anywhere(
+std::vector<Place> PlaceSearch::candidates(
     const std::vector<Eigen::Vector3f>& points,
     const std::vector<Eigen::Vector3f>& normals,
     const Eigen::Vector3d& up) {
   if (!choose_keypoints(points, normals)) {
-    return {Pose::Identity(), 0.0, 1.0, 0, kTooFew};
+    return {};
   }
   const Eigen::Matrix3d R_level_scan =
       Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  const std::vector<Place> places = places_from(guesses_for(R_level_scan));
-  return places.empty() ? Place{Pose::Identity(), 0.0, 1.0, 0, "no place has such walls"}
-                        : judged(places);
+  std::vector<Place> distinct;
+  for (Place& place : places_from(guesses_for(R_level_scan))) {
+    const bool is_new = std::all_of(distinct.begin(), distinct.end(), [&](const Place& other) {
+      return is_elsewhere(place.T_map_scan, other.T_map_scan);
+    });
+    if (is_new && place.share >= kMinShare) {
+      distinct.push_back(std::move(place));
+    }
+  }
+  return distinct;
+}
+
+Place PlaceSearch::anywhere(
+    const std::vector<Eigen::Vector3f>& points,
+    const std::vector<Eigen::Vector3f>& normals,
+    const Eigen::Vector3d& up) {
+  const std::vector<Place> places = candidates(points, normals, up);
+  if (!places.empty()) {
+    return judged(places, map_, ScanWitness(points, normals));
+  }
+  const bool is_poor = key_points_.size() < kMinKeypoints;
+  return {Pose::Identity(), 0.0, 1.0, 0, is_poor ? kTooFew : "no place has such walls"};
 }
 
 Place PlaceSearch::refined(const Pose& T_map_scan) {
@@ -172,10 +175,16 @@ Place PlaceSearch::refined(const Pose& T_map_scan) {
 /// Best first.
 std::vector<Place> PlaceSearch::places_from(const std::vector<Pose>& guesses) {
   constexpr std::size_t kMostRefined = 40;
-  const std::vector<Pose> found = coarse_.search(key_points_, key_normals_, guesses);
+  std::vector<Pose> coarse;
+  for (const Pose& pose : coarse_.search(key_points_, key_normals_, guesses)) {
+    if (coarse.size() < kMostRefined && is_new(pose, coarse)) {
+      coarse.push_back(pose);
+    }
+  }
   std::vector<Place> places;
-  for (std::size_t i = 0; i < std::min(found.size(), kMostRefined); ++i) {
-    places.push_back(refined(found[i]));
+  places.reserve(coarse.size());
+  for (const Pose& pose : coarse) {
+    places.push_back(refined(pose));
   }
   std::stable_sort(
       places.begin(), places.end(), [](const Place& a, const Place& b) { return a.cost < b.cost; });

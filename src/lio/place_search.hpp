@@ -3,29 +3,18 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <string>
 #include <vector>
 
 #include "lio/executor.hpp"
 #include "lio/keypoints.hpp"
 #include "lio/outline.hpp"
+#include "lio/place.hpp"
 #include "lio/start_search.hpp"
 #include "nvm/geometry/pose.hpp"
 #include "nvm/map/voxel_map.hpp"
 #include "nvm/registration/scan_aligner.hpp"
 
 namespace nvm::lio {
-
-/// Where in a map a scan was made.
-struct Place {
-  Pose T_map_scan = Pose::Identity();
-  double share = 0.0;       ///< of the scan that lies on surfaces of the map that face it, 0 to 1
-  double cost = 1.0;        ///< how far off the scan lies there, see AlignResult
-  int open_directions = 0;  ///< of the pose's six, that the scan does not tell
-  std::string why_not;      ///< empty when the place is beyond doubt
-
-  bool is_found() const { return why_not.empty(); }
-};
 
 /// Finds the place in a map where a scan was made. Sides count: a wall seen from one room never
 /// fits its other face. Uses `map` while it lives, and never changes it.
@@ -40,8 +29,14 @@ class PlaceSearch {
       const std::vector<Eigen::Vector3f>& normals,
       const Pose& T_map_scan);
 
-  /// The place anywhere in the map, which is level, as the scan's `up` (unit, scan frame) makes the
-  /// scan. Not found when two places explain the scan about equally well.
+  /// Places anywhere in the map, which is level, as the scan's `up` (unit, scan frame) makes the
+  /// scan: those that most of it fits, best first and no two the same.
+  std::vector<Place> candidates(
+      const std::vector<Eigen::Vector3f>& points,
+      const std::vector<Eigen::Vector3f>& normals,
+      const Eigen::Vector3d& up);
+
+  /// The one of these that is beyond doubt. Not found when two explain the scan about equally well.
   Place anywhere(
       const std::vector<Eigen::Vector3f>& points,
       const std::vector<Eigen::Vector3f>& normals,
