@@ -116,22 +116,24 @@ double StampSmoother::smooth(double time) {
 
 MessageClock::MessageClock(
     const std::vector<MessageTime>& first, ClockChoice choice, bool smooths) {
-  std::vector<double> stamps;
-  std::vector<double> records;
   std::vector<double> offsets;
   std::size_t ticking = 0;
-  for (const MessageTime& message : first) {
-    ticking += stamps.empty() || message.stamp == stamps.back() ? 0U : 1U;
-    stamps.push_back(message.stamp);
-    records.push_back(message.record);
-    offsets.push_back(message.record - message.stamp);
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    ticking += i == 0 || first[i].stamp == first[i - 1].stamp ? 0U : 1U;
+    offsets.push_back(first[i].record - first[i].stamp);
   }
   const bool stands_still =
-      first.size() > 1 ? 2 * ticking < first.size() - 1 : !first.empty() && stamps[0] == 0.0;
+      first.size() > 1 ? 2 * ticking < first.size() - 1 : !first.empty() && first[0].stamp == 0.0;
   uses_record_ =
       choice == ClockChoice::kRecord || (choice == ClockChoice::kAutomatic && stands_still);
-  const std::vector<double> times = ascending(uses_record_ ? records : stamps);
-  offset_ = offsets.empty() ? 0.0 : median(std::move(offsets));
+  learn_offset(std::move(offsets));
+  std::vector<double> usable;
+  for (const MessageTime& message : first) {
+    if (may_begin(message)) {
+      usable.push_back(uses_record_ ? message.record : message.stamp);
+    }
+  }
+  const std::vector<double> times = ascending(usable);
   period_ = median_interval(times);
   constexpr std::size_t kFew = 10;
   constexpr double kJitter = 1.5e-3;  // [s]; no spinning sensor's own clock does as much
@@ -142,6 +144,24 @@ MessageClock::MessageClock(
       smoother_ = smoother;
     }
   }
+}
+
+void MessageClock::learn_offset(std::vector<double> offsets) {
+  if (offsets.empty()) {
+    return;
+  }
+  offset_ = median(offsets);
+  for (double& offset : offsets) {
+    offset = std::abs(offset - offset_);
+  }
+  offset_spread_ = median(std::move(offsets));
+}
+
+bool MessageClock::may_begin(const MessageTime& message) const {
+  constexpr double kTolerance = 1.0;  // [s]
+  constexpr double kFactor = 3.0;
+  return uses_record_ || std::abs(message.record - message.stamp - offset_) <=
+                             kTolerance + kFactor * offset_spread_;
 }
 
 bool MessageClock::follows(double time, double record) const {
@@ -157,7 +177,7 @@ std::optional<double> MessageClock::date(const MessageTime& message) {
   constexpr double kMinJump = 0.25;   // [s]
   constexpr double kTolerance = 0.1;  // [s]
   const double time = uses_record_ ? message.record : message.stamp;
-  if (!std::isfinite(time)) {
+  if (!std::isfinite(time) || (!std::isfinite(previous_) && !may_begin(message))) {
     return std::nullopt;
   }
   if (!follows(time, message.record) && !follows(time + jump_, message.record)) {

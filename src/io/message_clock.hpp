@@ -69,11 +69,14 @@ class MessageClock {
   std::optional<std::string> jump_note(const std::string& messages) const;
 
  private:
+  void learn_offset(std::vector<double> offsets);
+  bool may_begin(const MessageTime& message) const;
   bool follows(double time, double record) const;
 
   bool uses_record_ = false;
   double period_ = 0.0;
   double offset_ = 0.0;
+  double offset_spread_ = 0.0;  ///< median distance from offset_ [s]
   double jitter_ = 0.0;
   std::optional<StampSmoother> smoother_;
   double previous_ = -std::numeric_limits<double>::infinity();

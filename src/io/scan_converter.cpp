@@ -125,7 +125,7 @@ std::vector<std::string> ScanConverter::notes() const {
   if (untimed_scans_ > 0) {
     notes.push_back(
         prefix + std::to_string(untimed_scans_) +
-        " scans have times that do not fit into a sweep; they are replaced by the " +
+        " scans have no times, or some that do not fit into a sweep; they are replaced by the " +
         (uses_azimuth_ || options_.is_raw ? "azimuth's, or" : "") + " begin of the sweep");
   }
   return notes;
@@ -142,10 +142,12 @@ lio::Scan ScanConverter::convert(const PointRecords& records, double stamp) {
   drop_no_returns(scan.points, ticks);
   scan.t_begin = times_.sweep_begin(stamp);
   scan.t_end = scan.t_begin;
+  const bool lacks_times = times_.base != PointTimes::Base::kNone && !scan.points.empty();
   if (!ticks.empty()) {
     set_times(ticks, stamp, scan);
-  } else if (uses_azimuth_) {
-    untimed_scans_ += set_times_by_azimuth(stamp, scan) ? 0 : 1;
+  } else if (uses_azimuth_ || lacks_times) {
+    const bool is_timed = set_times_by_azimuth(stamp, scan);
+    untimed_scans_ += lacks_times || !is_timed ? 1 : 0;
   }
   return scan;
 }

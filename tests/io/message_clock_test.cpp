@@ -71,6 +71,34 @@ TEST(MessageClock, TakesAJumpThatLastsOffTheStamps) {
   }
 }
 
+// The first stamps are those of a sensor that does not know the time yet.
+TEST(MessageClock, FirstStampsThatAreFarOffAreLeftOut) {
+  for (const double stamp : {0.0, 1e9}) {
+    auto times = messages(2000.0, 0.1, 0.1, 30);
+    for (int i = 0; i < 3; ++i) {
+      times[i].stamp = stamp + 0.1 * i;
+    }
+    MessageClock clock({times.begin(), times.begin() + 20}, ClockChoice::kAutomatic, true);
+    for (int i = 0; i < 30; ++i) {
+      const auto time = clock.date(times[i]);
+      EXPECT_EQ(time.has_value(), i >= 3) << i;
+      EXPECT_NEAR(time.value_or(times[i].record - 0.1), times[i].record - 0.1, 1e-6) << i;
+    }
+    EXPECT_FALSE(clock.jump_note("clouds"));
+  }
+}
+
+TEST(MessageClock, RecordTimesThatAreOfNoUseLeaveNothingOut) {
+  auto times = messages(2000.0, 0.1, 0.1, 60);
+  for (MessageTime& time : times) {
+    time.record = 5.0;  // as some converters write
+  }
+  MessageClock clock({times.begin(), times.begin() + 20}, ClockChoice::kAutomatic, true);
+  for (const MessageTime& time : times) {
+    EXPECT_EQ(clock.date(time), time.stamp);
+  }
+}
+
 TEST(MessageClock, AGapIsNoJump) {
   auto times = messages(0.0, 0.1, 0.02, 40);
   times.erase(times.begin() + 5, times.begin() + 30);

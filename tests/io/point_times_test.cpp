@@ -238,16 +238,20 @@ TEST(PointTimes, AbsurdTimesAreLeftOutAndCounted) {
   }
 }
 
-TEST(PointTimes, AScanOfAbsurdTimesIsDatedByAzimuth) {
+TEST(PointTimes, AScanOfAbsurdOrWithoutTimesIsDatedByAzimuth) {
   Sensor sensor;
   auto clouds = sensor.clouds(8);
   Sensor absurd = sensor;
   absurd.tick = [](double, double dt) { return std::fmod(7e12 * dt, 2e9); };
   clouds[2] = absurd.cloud(2);
+  Sensor without = sensor;
+  without.field = "";
+  clouds[5] = without.cloud(5);
   ScanConverter converter(raw());
   const auto scans = sensor.scans(converter, clouds);
   expect_true_times(sensor, 2, scans[2]);
-  EXPECT_THAT(converter.notes(), Contains(HasSubstr("1 scans have times that do not fit")));
+  expect_true_times(sensor, 5, scans[5]);
+  EXPECT_THAT(converter.notes(), Contains(HasSubstr("2 scans have no times, or some that do not")));
 }
 
 TEST(PointTimes, AFirstScanThatIsShort) {
