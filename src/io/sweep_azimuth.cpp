@@ -83,7 +83,7 @@ std::vector<float> sweep_fractions(const std::vector<lio::TimedPoint>& points) {
   std::vector<float> fractions(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double angle = beams.at(points[i].ring).first + sign * turned[i] - earliest;
-    fractions[i] = static_cast<float>(angle / kTurn);
+    fractions[i] = static_cast<float>(std::max(0.0, angle) / kTurn);  // the first may step back
   }
   return fractions;
 }
