@@ -1,5 +1,5 @@
 # The verbs of a newcomer; everything behind them is a script or a CMake preset.
-.PHONY: help setup demo test bench docs format lint coverage
+.PHONY: help setup demo test bench docs format lint coverage fuzz
 
 help:  ## this list
 	@sed -n 's/^\([a-z]*\):  ## /  make \1\t/p' Makefile
@@ -26,6 +26,9 @@ format:  ## format every C++ file
 lint:  ## build with clang, clang-tidy on every file
 	scripts/setup.sh --developer
 	cmake --preset tidy && cmake --build --preset tidy
+
+fuzz:  ## try random maps, files, messages and options for SECONDS=60 each
+	scripts/fuzz.sh $(SECONDS)
 
 coverage:  ## which lines the tests reach
 	scripts/setup.sh --developer
