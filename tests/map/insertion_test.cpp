@@ -19,8 +19,8 @@ using Points = std::vector<Eigen::Vector3d>;
 using Normals = std::vector<Eigen::Vector3f>;
 
 std::size_t total(const InsertStats& s) {
-  return s.stored + s.too_close + s.surface_full + s.no_normal + s.non_finite + s.out_of_range +
-         s.map_full;
+  return s.stored + s.settled + s.too_close + s.surface_full + s.no_normal + s.non_finite +
+         s.out_of_range + s.map_full;
 }
 
 Eigen::Vector3f at_angle(double degrees) {

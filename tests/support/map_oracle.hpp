@@ -2,14 +2,18 @@
 // Copyright (c) 2026 The nvm authors
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <tuple>
 #include <vector>
 
+#include "nvm/map/sighting.hpp"
 #include "nvm/map/voxel_map.hpp"
 
 namespace nvm::test {
@@ -24,11 +28,17 @@ class MapOracle {
   };
 
   explicit MapOracle(const VoxelMap& map) : options_(map.options()), points_(map.points()) {
+    std::map<SurfaceKey, std::vector<Eigen::Vector3d>> normals;
     for (const MapPoint& point : points_) {
-      surfaces_[surface_of(point)].push_back(point.normal.cast<double>());
+      const SurfaceKey surface = surface_of(point);
+      if (is_sighting(point.normal)) {  // a surface of sightings looks as the first of them does
+        directions_.try_emplace(surface, Direction{2.0 * point.normal.cast<double>(), true});
+      } else {
+        normals[surface].push_back(point.normal.cast<double>());
+      }
     }
-    for (const auto& [key, normals] : surfaces_) {
-      directions_[key] = principal_direction(normals);
+    for (const auto& [surface, vectors] : normals) {
+      directions_[surface] = principal_direction(vectors);
     }
   }
 
@@ -47,8 +57,7 @@ class MapOracle {
         continue;
       }
       Candidate candidate{sq_distance, true};
-      if (normal == nullptr ||
-          agrees(point, normal->cast<double>(), search.gate, candidate.certain)) {
+      if (normal == nullptr || agrees(point, *normal, search.gate, candidate.certain)) {
         result.push_back(candidate);
       }
     }
@@ -95,15 +104,19 @@ class MapOracle {
     return {direction.dot(sum) < 0.0 ? Eigen::Vector3d(-direction) : direction, distinct};
   }
 
-  bool agrees(
-      const MapPoint& point, const Eigen::Vector3d& normal, Gate gate, bool& certain) const {
+  bool agrees(const MapPoint& point, const Eigen::Vector3f& asked, Gate gate, bool& certain) const {
+    const bool sees_sightings = is_sighting(asked);
+    const Eigen::Vector3d normal = (sees_sightings ? 2.0 : 1.0) * asked.cast<double>();
     constexpr double kRounding = 0.04;  // of two stored normals and an iterated direction
     const auto within = [&](const Eigen::Vector3d& a, double limit) {
       const double excess = std::acos(std::clamp(a.dot(normal), -1.0, 1.0)) - limit;
       certain = certain && excess < -kRounding;
       return excess < kRounding;
     };
-    bool ok = within(point.normal.cast<double>(), options_.max_point_angle);
+    if (is_sighting(point.normal) && !sees_sightings) {
+      return false;
+    }
+    bool ok = within(point.normal.cast<double>().normalized(), options_.max_point_angle);
     if (gate == Gate::kSurfaces) {
       const Direction& direction = directions_.at(surface_of(point));
       const bool agrees_with_surface = within(direction.vector, options_.max_surface_angle);
@@ -115,8 +128,36 @@ class MapOracle {
 
   MapOptions options_;
   std::vector<MapPoint> points_;
-  std::map<SurfaceKey, std::vector<Eigen::Vector3d>> surfaces_;
   std::map<SurfaceKey, Direction> directions_;
 };
+
+// All answers must be candidates, in ascending order, and no certain candidate that is nearer than
+// the last may be missing.
+inline void expect_right(
+    const std::vector<MapOracle::Candidate>& candidates,
+    const Neighbor* found,
+    std::size_t count,
+    std::size_t wanted) {
+  constexpr double kTolerance = 1e-6;  // of a squared distance stored as float
+  std::size_t certain = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double sq_distance = found[i].sq_distance;
+    if (i > 0) {
+      ASSERT_GE(found[i].sq_distance, found[i - 1].sq_distance);
+    }
+    const auto match =
+        std::find_if(candidates.begin(), candidates.end(), [&](const auto& candidate) {
+          return std::abs(candidate.sq_distance - sq_distance) < kTolerance;
+        });
+    ASSERT_NE(match, candidates.end()) << "no such candidate: " << sq_distance;
+  }
+  const double last =
+      count < wanted ? std::numeric_limits<double>::infinity() : found[count - 1].sq_distance;
+  for (const auto& candidate : candidates) {
+    certain += candidate.certain && candidate.sq_distance < last - kTolerance ? 1 : 0;
+  }
+  EXPECT_LE(certain, count) << "a nearer neighbour was missed";
+  EXPECT_LE(count, std::min(wanted, candidates.size()));
+}
 
 }  // namespace nvm::test

@@ -60,7 +60,8 @@ class VoxelMap {
   // --- insertion
 
   /// Inserts `points` with their `normals` (ranges of equal length, in the frame scan) at
-  /// T_map_scan (Eq. 3): p_map = T p, n_map = R n. Normals have unit length and look at the sensor.
+  /// T_map_scan (Eq. 3): p_map = T p, n_map = R n. Normals have unit length and look at the sensor;
+  /// a point whose plane is not known has a sighting instead (sighting.hpp).
   /// Points that cannot be stored are counted, never an error. Throws std::invalid_argument when
   /// the lengths differ or T_map_scan is not rigid. 15 to 60 ns per point.
   template <class Points, class Normals>
@@ -89,8 +90,8 @@ class VoxelMap {
   /// The nearest stored points in the 27 voxels around `point` (map frame, m) that agree with the
   /// unit `normal` (spec §3.6): surfaces within max_surface_angle, points within max_point_angle.
   /// Ascending by distance; of equally near points always the same one first. Writes to `out`,
-  /// which has room for search.count, and returns how many. Nothing is found for a point that is
-  /// not finite or out of range, or a normal that is not a unit vector.
+  /// which has room for search.count, and returns how many. Only a sighting finds sightings, and
+  /// normals too (sighting.hpp). Nothing is found for a bad point or a normal of another length.
   NVM_SHARED std::size_t nearest(
       const Eigen::Vector3d& point,
       const Eigen::Vector3f& normal,
@@ -120,7 +121,7 @@ class VoxelMap {
   NVM_SHARED Eigen::Vector3d position(PointId id) const noexcept {
     return detail::stored_position(engine_.storage(), engine_.lattice(), id);
   }
-  /// Unit normal of a stored point; zero when it was inserted without one.
+  /// Unit normal of a stored point, its sighting, or zero when it was inserted without either.
   NVM_SHARED Eigen::Vector3f normal(PointId id) const noexcept {
     return detail::load_normal(detail::stored_normal(engine_.storage(), id));
   }

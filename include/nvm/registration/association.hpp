@@ -13,7 +13,9 @@
 #include "nvm/core/target.hpp"
 #include "nvm/map/map_concept.hpp"
 #include "nvm/map/neighbor.hpp"
+#include "nvm/map/sighting.hpp"
 #include "nvm/registration/plane.hpp"
+#include "nvm/registration/sighting_options.hpp"
 
 namespace nvm {
 
@@ -30,6 +32,8 @@ struct AssociationOptions {
   /// Share of the planarity in the weight, the rest is that of the closeness, 0 to 1; alpha of
   /// spec §4.
   double planarity_share = 0.9;
+  /// When the plane is that of a point with a sighting for a normal.
+  SightingOptions sighting;
 
   /// Throws std::invalid_argument with the name, the value and the allowed range of the first bad
   /// member.
@@ -39,7 +43,7 @@ struct AssociationOptions {
 enum class AssociationStatus : std::uint8_t {
   kValid,
   kTooFewNeighbors,  ///< fewer than min_neighbors within max_neighbor_distance (none for NaN)
-  kNoPlane,          ///< the neighbours are collinear or coincide
+  kNoPlane,          ///< the neighbours are collinear or coincide, or no surface of a sighting
   kTooFar,           ///< farther from the plane than max_plane_distance
 };
 
@@ -53,9 +57,10 @@ struct Association {
 
 inline namespace NVM_TARGET {
 
-/// Finds the plane of one point (spec §4): position and unit normal in the map frame. A zero
-/// normal stands for "unknown": the plane is then not oriented (and a map with normals answers as
-/// its own documentation says). Never throws; safe from many threads while nobody changes the map,
+/// Finds the plane of one point (spec §4): position and unit normal in the map frame. A sighting
+/// (nvm/map/sighting.hpp) instead of a normal gets the plane if it is a surface. A zero normal
+/// stands for "unknown": the plane is then not oriented (and a map with normals answers as its own
+/// documentation says). Never throws; safe from many threads while nobody changes the map,
 /// with a context for each.
 template <class Map>
 Association associate(
@@ -74,7 +79,7 @@ Association associate(
     return result;
   }
   const std::optional<Plane> plane = fit_plane(found.data(), count);
-  if (!plane) {
+  if (!plane || (is_sighting(normal) && !options.sighting.accept(*plane, normal))) {
     result.status = AssociationStatus::kNoPlane;
     return result;
   }
@@ -118,6 +123,7 @@ inline void AssociationOptions::validate() const {
       "planarity_share",
       planarity_share,
       "0 to 1");
+  sighting.validate();
 }
 
 }  // namespace nvm

@@ -25,6 +25,12 @@ struct SurfaceChoice {
 /// Whether a surface takes a point, and if not, why.
 enum class Admissible : std::uint8_t { kYes, kTooClose, kSurfaceFull };
 
+/// The place of a sighting.
+struct SightedPlace {
+  std::uint32_t chunk;  // kNone: there is no sighting
+  int lane;
+};
+
 struct Room {
   Admissible admissible;
   std::uint32_t chunk;  // kYes: the last one of the surface; kTooClose: that of a point too close
@@ -37,8 +43,10 @@ class Admission {
       const MapOptions& options,
       std::int32_t min_surface_dot,
       std::int32_t min_sq_steps,
-      const PointChunk* chunks)
+      const PointChunk* chunks,
+      const NormalChunk* normals)
       : chunks_(chunks),
+        normals_(normals),
         min_surface_dot_(min_surface_dot),
         min_sq_steps_(min_sq_steps),
         max_surfaces_(options.max_surfaces),
@@ -75,7 +83,60 @@ class Admission {
     return {Admissible::kYes, last};
   }
 
+  /// The sighting in whose place a point with the normal `normal` goes that the surface at `head`
+  /// has no room for: the nearest one, of the chunk `room` when it is too close to it, but not when
+  /// it is nearer to a point with a normal there.
+  [[gnu::always_inline]] SightedPlace find_sighting(
+      std::uint32_t head,
+      const Room& room,
+      const LanePoint& point,
+      const StoredNormal& normal) const noexcept {
+    if (chunks_[head].tight != 0 || is_sighting(normal)) {
+      return {kNone, 0};
+    }
+    return room.admissible == Admissible::kTooClose ? nearest_in(room.chunk, point)
+                                                    : nearest_sighting(head, point);
+  }
+
  private:
+  /// The point of `chunk` nearest to `point`, if it is a sighting.
+  [[gnu::noinline]] SightedPlace nearest_in(
+      std::uint32_t chunk, const LanePoint& point) const noexcept {
+    const std::uint32_t sighted = detail::lanes_sighted(normals_[chunk]);
+    if (sighted == 0) {
+      return {kNone, 0};
+    }
+    IntLanes distances;
+    detail::sq_distances(chunks_[chunk], point, distances);
+    const int lane = nearest_lane(distances, 0xff);
+    return {(sighted >> lane & 1U) != 0 ? chunk : kNone, lane};
+  }
+
+  /// The sighting of a surface nearest to `point`.
+  [[gnu::noinline]] SightedPlace nearest_sighting(
+      std::uint32_t head, const LanePoint& point) const noexcept {
+    SightedPlace best{kNone, 0};
+    auto best_sq_distance = std::numeric_limits<std::uint32_t>::max();
+    int left = chunks_[head].size;
+    for (std::uint32_t id = head; left > 0; id = chunks_[id].next, left -= kLanes) {
+      // Lanes without a point hold anything.
+      const std::uint32_t taken = left < kLanes ? (1U << left) - 1U : 0xffU;
+      const std::uint32_t sighted = detail::lanes_sighted(normals_[id]) & taken;
+      if (sighted == 0) {
+        continue;
+      }
+      IntLanes distances;
+      detail::sq_distances(chunks_[id], point, distances);
+      const int lane = nearest_lane(distances, sighted);
+      const auto sq_distance = static_cast<std::uint32_t>(distances[lane]);
+      if (sq_distance < best_sq_distance) {
+        best = {id, lane};
+        best_sq_distance = sq_distance;
+      }
+    }
+    return best;
+  }
+
   /// The first surface that agrees with the normal; the last one takes whatever is left.
   SurfaceChoice first_consistent(std::uint32_t front, const StoredNormal& normal) const noexcept {
     std::uint32_t surface = front;
@@ -111,6 +172,7 @@ class Admission {
   }
 
   const PointChunk* chunks_;
+  const NormalChunk* normals_;
   std::int32_t min_surface_dot_;
   std::int32_t min_sq_steps_;
   int max_surfaces_;

@@ -38,7 +38,8 @@ class Insertion {
         lattice_(lattice),
         gate_(gate),
         min_sq_steps_(lattice.sq_steps(options.min_point_distance)),
-        admission_(options, gate.min_surface_dot, min_sq_steps_, storage.chunks()),
+        admission_(
+            options, gate.min_surface_dot, min_sq_steps_, storage.chunks(), storage.normals()),
         storage_(storage),
         chunks_(storage.chunks()),
         cache_(cache),
@@ -75,7 +76,10 @@ class Insertion {
   void insert_one(const PointBlock& block, std::size_t i) {
     switch (block.status(i)) {
       case PointBlock::Status::kOk:
-        insert_point(block, i);
+        insert_point(block, i, block.normal(i));
+        break;
+      case PointBlock::Status::kSighting:
+        insert_point(block, i, view_of(block.normal(i)));
         break;
       case PointBlock::Status::kNonFinite:
         ++stats_.non_finite;
@@ -89,7 +93,9 @@ class Insertion {
     }
   }
 
-  void insert_point(const PointBlock& block, std::size_t i) {
+  /// `facing` chooses the surface: the normal, or the view direction of a sighting.
+  [[gnu::always_inline]] void insert_point(
+      const PointBlock& block, std::size_t i, const StoredNormal& facing) {
     const IndexKey key = block.key(i);
     VoxelCache::Entry& cached = cache_[block.cache_slot(i)];
     if (cached.key != key || cached.insertion != number_) {
@@ -100,7 +106,7 @@ class Insertion {
       storage_.recency().use(chunks_[found].voxel);
       cached = {key, found, number_};
     }
-    const std::uint32_t surface = surface_for(cached.head, block, i);
+    const std::uint32_t surface = surface_for(cached.head, facing, block, i);
     if (surface != kNone) {
       add_to_surface(surface, block, i);
     }
@@ -134,12 +140,12 @@ class Insertion {
 
   /// Head of the surface that takes the point, made when needed; kNone, which is counted, when
   /// there is no room for the surface or for its only point.
-  std::uint32_t surface_for(std::uint32_t front, const PointBlock& block, std::size_t i) {
-    const StoredNormal normal = block.normal(i);
-    if (admission_.takes_any(front, normal)) {
+  std::uint32_t surface_for(
+      std::uint32_t front, const StoredNormal& facing, const PointBlock& block, std::size_t i) {
+    if (admission_.takes_any(front, facing)) {
       return front;
     }
-    const SurfaceChoice choice = admission_.choose(front, normal);
+    const SurfaceChoice choice = admission_.choose(front, facing);
     if (!choice.makes_new) {
       return choice.surface;
     }
@@ -166,6 +172,12 @@ class Insertion {
     const StoredNormal normal = block.normal(i);
     const Room room = admission_.find_room(head, LanePoint(point));
     if (room.admissible != Admissible::kYes) {
+      const SightedPlace place = admission_.find_sighting(head, room, LanePoint(point), normal);
+      if (place.chunk != kNone) {
+        storage_.settle(head, place.chunk, place.lane, point, normal);
+        ++stats_.settled;
+        return;
+      }
       reject(room.admissible);
       if (room.admissible == Admissible::kTooClose && merger_.is_on()) {
         merger_.merge_into_nearest(room.chunk, point, normal);
@@ -192,9 +204,9 @@ class Insertion {
     if (!options_.space_across_voxels) {
       return false;
     }
-    gate_.normal = block.normal(i);
-    return gate_.normal == StoredNormal{} ? finds_any(NoGate{}, brick, block, i)
-                                          : finds_any(gate_, brick, block, i);
+    const StoredNormal normal = block.normal(i);
+    return normal == StoredNormal{} ? finds_any(NoGate{}, brick, block, i)
+                                    : finds_any(gate_for(gate_, normal), brick, block, i);
   }
 
   template <class Gate>

@@ -22,6 +22,7 @@
 #include "nvm/map/operations/normal_gate.hpp"
 #include "nvm/map/operations/point_block.hpp"
 #include "nvm/map/operations/traversal.hpp"
+#include "nvm/map/sighting.hpp"
 #include "nvm/map/storage/lattice.hpp"
 #include "nvm/map/storage/map_capacity.hpp"
 #include "nvm/map/storage/stored_normal.hpp"
@@ -91,11 +92,10 @@ class MapEngine {
   }
 
   std::size_t nearest(const Eigen::Vector3f& normal, const NearestRequest& request) const noexcept {
-    if (!is_unit(normal)) {
+    if (!is_unit(normal) && !nvm::is_sighting(normal)) {
       return 0;
     }
-    NormalGate gate = gate_;
-    gate.normal = store_normal(normal);
+    const NormalGate gate = gate_for(gate_, store_normal(normal));
     return request.search.gate == Gate::kPoints ? nearest_through(PointGate{gate}, request)
                                                 : nearest_through(gate, request);
   }

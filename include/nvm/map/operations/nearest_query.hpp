@@ -21,7 +21,12 @@ NVM_BEGIN_DETAIL_KERNELS
 /// The lanes of a chunk that a gate reads.
 inline std::uint32_t facing(const NoGate&, const NormalChunk&) { return 0xff; }
 inline std::uint32_t facing(const NormalGate& gate, const NormalChunk& normals) {
-  return detail::lanes_facing(normals, gate.normal, gate.min_point_dot);
+  const std::uint32_t sighted = detail::lanes_sighted(normals);
+  std::uint32_t facing = detail::lanes_facing(normals, gate.normal, gate.min_point_dot) & ~sighted;
+  if (gate.reads_sightings && sighted != 0) {  // the dot of half a vector is half as large
+    facing |= detail::lanes_facing(normals, gate.normal, gate.min_point_dot >> 1) & sighted;
+  }
+  return facing;
 }
 
 /// Collects the points near a query from the up to 27 voxels around it.

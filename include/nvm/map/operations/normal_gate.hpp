@@ -24,6 +24,7 @@ struct NormalGate {
   int min_surface_dot;
   int min_point_dot;
   int all_points_dot;  // a tight surface at a larger dot than this has no point to reject
+  bool reads_sightings;
 
   bool reads_surface(const PointChunk& head) const {
     return dot(head.direction, normal) > min_surface_dot;
@@ -32,6 +33,13 @@ struct NormalGate {
     return head.tight == 0 || dot(head.direction, normal) <= all_points_dot;
   }
 };
+
+/// `gate` with the normal or the sighting of a query.
+inline NormalGate gate_for(NormalGate gate, const StoredNormal& normal) {
+  gate.reads_sightings = is_sighting(normal);
+  gate.normal = gate.reads_sightings ? view_of(normal) : normal;
+  return gate;
+}
 
 /// The gate of a map with these options, but for the query's normal.
 inline NormalGate normal_gate(const MapOptions& options) {

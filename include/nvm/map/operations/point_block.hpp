@@ -25,7 +25,7 @@ class PointBlock {
  public:
   static constexpr std::size_t kSize = 64;
 
-  enum class Status : std::uint8_t { kOk, kNonFinite, kOutOfRange, kNoNormal };
+  enum class Status : std::uint8_t { kOk, kSighting, kNonFinite, kOutOfRange, kNoNormal };
 
   void set_position(std::size_t i, const Eigen::Vector3d& p_scan) noexcept {
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -153,9 +153,18 @@ class PointBlock {
     }
     for (std::size_t i = 0; i < kSize && unit == 0; ++i) {
       if (!is_unit_length(sq_length[i])) {
-        status_[i] = status_[i] == Status::kOk ? Status::kNoNormal : status_[i];
-        turned[0][i] = turned[1][i] = turned[2][i] = 0.0F;
+        judge_short(i, sq_length[i], turned);
       }
+    }
+  }
+
+  void judge_short(std::size_t i, float sq_length, Axes<float>& turned) noexcept {
+    const bool is_sighting = is_sighting_length(sq_length);
+    if (status_[i] == Status::kOk) {
+      status_[i] = is_sighting ? Status::kSighting : Status::kNoNormal;
+    }
+    if (!is_sighting) {
+      turned[0][i] = turned[1][i] = turned[2][i] = 0.0F;
     }
   }
 

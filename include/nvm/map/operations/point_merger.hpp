@@ -74,14 +74,7 @@ class PointMerger {
       std::uint32_t chunk, const WrappedPoint& point, const StoredNormal& normal) noexcept {
     IntLanes distances;
     detail::sq_distances(storage_.chunk(chunk), LanePoint(point), distances);
-    const auto sq_distance = [&](int lane) {  // large where there is no point
-      return static_cast<std::uint32_t>(distances[lane]);
-    };
-    int nearest = 0;
-    for (int lane = 1; lane < kLanes; ++lane) {
-      nearest = sq_distance(lane) < sq_distance(nearest) ? lane : nearest;
-    }
-    merge(chunk, nearest, point, normal);
+    merge(chunk, nearest_lane(distances, 0xff), point, normal);
   }
 
   /// `divisor` is positive.

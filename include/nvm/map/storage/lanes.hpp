@@ -155,6 +155,18 @@ inline constexpr auto kSetBits = [] {
   return sum;
 }
 
+/// The nearest lane of those in `mask`, which has some, by sq_distances(), which are large where
+/// there is no point; of equally near ones the first.
+[[gnu::always_inline]] inline int nearest_lane(const IntLanes& distances, std::uint32_t mask) {
+  const auto sq_distance = [&](int lane) { return static_cast<std::uint32_t>(distances[lane]); };
+  int nearest = __builtin_ctz(mask);
+  for (int lane = nearest + 1; lane < kLanes; ++lane) {
+    const bool is_nearer = sq_distance(lane) < sq_distance(nearest);
+    nearest = (mask >> lane & 1U) != 0 && is_nearer ? lane : nearest;
+  }
+  return nearest;
+}
+
 /// Bit i is set when values[i] > limit.
 [[gnu::always_inline]] inline std::uint32_t lanes_above(
     const ShortLanes& values, std::int16_t limit) {
@@ -183,6 +195,18 @@ inline constexpr auto kSetBits = [] {
   std::memcpy(&lanes, bytes, sizeof(lanes));
   out = reinterpret_cast<WrappedLanes>(__builtin_convertvector(lanes, ShortLanes));
 #endif
+}
+
+/// Bit i is set when normal i is a sighting.
+[[gnu::always_inline]] inline std::uint32_t lanes_sighted(const NormalChunk& chunk) {
+  WrappedLanes x;
+  WrappedLanes y;
+  WrappedLanes z;
+  widen(chunk.x, x);
+  widen(chunk.y, y);
+  widen(chunk.z, z);
+  const auto sq_lengths = reinterpret_cast<ShortLanes>(x * x + y * y + z * z);
+  return lanes_above(sq_lengths, 0) & ~lanes_above(sq_lengths, kMinSqNormal - 1);
 }
 
 /// Bit i is set when the dot of normal i with `normal` exceeds `threshold`.

@@ -46,7 +46,11 @@ struct NormalSums {
   WideMatrix squares{0, 0, 0, 0, 0, 0};  // sum n n^T
   int count = 0;
 
+  /// Sightings are no normals.
   void add(const StoredNormal& stored) {
+    if (is_sighting(stored)) {
+      return;
+    }
     const WideVector n = wide(stored);
     normals = {normals.x + n.x, normals.y + n.y, normals.z + n.z};
     squares.xx += n.x * n.x;

@@ -10,11 +10,14 @@
 
 #include "nvm/core/target.hpp"
 
+#include "nvm/map/sighting.hpp"
+
 namespace nvm::detail {
 inline namespace NVM_TARGET {
 
 /// A unit normal in 3 bytes, accurate to 0.4 degrees: it tells sides apart and orients exported
-/// maps; planes are fitted to positions. The zero vector stands for "no normal".
+/// maps; planes are fitted to positions. One of half the length is a sighting (sighting.hpp), the
+/// zero vector stands for "no normal".
 struct StoredNormal {
   std::int8_t x = 0;
   std::int8_t y = 0;
@@ -38,6 +41,10 @@ inline bool is_unit_length(float sq_length) {
 }
 inline bool is_unit(const Eigen::Vector3f& normal) { return is_unit_length(normal.squaredNorm()); }
 
+/// Stored normals are shorter than this when squared if they are sightings: three quarters of
+/// kNormalScale, midway between the two lengths.
+inline constexpr int kMinSqNormal = 9073;
+
 /// A component of a unit vector, rounded. (Adding 128 first turns truncation into rounding for
 /// either sign.)
 inline std::int8_t store_component(float value) {
@@ -50,15 +57,28 @@ inline StoredNormal store_normal(const Eigen::Vector3f& normal) {
   return {store_component(normal.x()), store_component(normal.y()), store_component(normal.z())};
 }
 
-inline Eigen::Vector3f load_normal(const StoredNormal& normal) {
-  const Eigen::Vector3f vector(normal.x, normal.y, normal.z);
-  const float length = vector.norm();
-  return length > 0.0F ? Eigen::Vector3f(vector / length) : Eigen::Vector3f::Zero();
-}
-
 /// 127^2 times the cosine of the angle between two normals.
 inline int dot(const StoredNormal& a, const StoredNormal& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+inline bool is_sighting(const StoredNormal& normal) {
+  const int sq_length = dot(normal, normal);
+  return sq_length > 0 && sq_length < kMinSqNormal;
+}
+/// The unit vector along a sighting.
+inline StoredNormal view_of(const StoredNormal& sighting) {
+  const auto twice = [](std::int8_t component) {
+    return static_cast<std::int8_t>(std::clamp(2 * component, -kNormalScale, kNormalScale));
+  };
+  return {twice(sighting.x), twice(sighting.y), twice(sighting.z)};
+}
+
+/// Of the length that it stands for: 1, half, or 0.
+inline Eigen::Vector3f load_normal(const StoredNormal& normal) {
+  const Eigen::Vector3f vector(normal.x, normal.y, normal.z);
+  const float length = is_sighting(normal) ? 2.0F * vector.norm() : vector.norm();
+  return length > 0.0F ? Eigen::Vector3f(vector / length) : Eigen::Vector3f::Zero();
 }
 
 /// Two stored normals are within `angle` [rad] when their dot exceeds this. Angles are compared by

@@ -99,7 +99,11 @@ class SurfaceStorage {
       merged_[last][lane] = 1;
     }
     surface.size = static_cast<std::uint8_t>((surface.size + 1) & 0x7f);
-    update_direction(head, normal);
+    if (is_sighting(normal)) {
+      add_sighting(head, normal);
+    } else {
+      update_direction(head, normal);
+    }
     ++point_count_;
     return last;
   }
@@ -113,6 +117,18 @@ class SurfaceStorage {
   /// For a point read from a file. Only with MapCapacity::counts_merged.
   void restore_merged_points(std::uint32_t chunk, int lane, int count) noexcept {
     merged_[chunk][lane] = static_cast<std::uint8_t>(count);
+  }
+
+  /// Puts a point with a normal in the place of a sighting of the surface at `head`.
+  void settle(
+      std::uint32_t head,
+      std::uint32_t chunk,
+      int lane,
+      const WrappedPoint& point,
+      const StoredNormal& normal) noexcept {
+    chunks_[chunk].set_position(lane, point);
+    normals_[chunk].set(lane, normal);
+    turn(chunks_[head], normals_[head].power_step, false);
   }
 
   /// Returns all chunks of a surface. Whatever links to it must be changed by the caller.
@@ -145,7 +161,17 @@ class SurfaceStorage {
     return id;
   }
 
-  /// After `added` has joined the surface.
+  /// After a sighting has joined the surface, whose direction it is only as long as it is alone.
+  void add_sighting(std::uint32_t head, const StoredNormal& added) noexcept {
+    PointChunk& surface = chunks_[head];
+    surface.tight = 0;
+    if (surface.size == 1) {
+      surface.direction = view_of(added);
+      normals_[head].power_step = {};
+    }
+  }
+
+  /// After the normal `added` has joined the surface.
   void update_direction(std::uint32_t head, const StoredNormal& added) noexcept {
     PointChunk& surface = chunks_[head];
     PowerStep& step = normals_[head].power_step;
@@ -196,7 +222,7 @@ class SurfaceStorage {
       for (int lane = 0; lane < kLanes; ++lane) {  // all lanes, without a branch
         const StoredNormal normal = normals.get(lane);
         const int along = dot(normal, direction);
-        step.add(normal, lane < count ? along : 0);
+        step.add(normal, lane < count && !is_sighting(normal) ? along : 0);
         min_along = std::min(min_along, lane < count ? along : min_along);
       }
     });
