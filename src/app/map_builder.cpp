@@ -13,7 +13,7 @@ MapBuilder::MapBuilder(const lio::PipelineOptions& options, const Trajectory& T_
     : returns_(options.inertial.returns),
       trajectory_(T_map_body),
       executor_(options.threads),
-      normal_estimator_(options.inertial.normals),
+      preparer_(options.inertial.normals, options.inertial.max_plane_offset, executor_),
       map_(lio::make_map(options.map_type, options.map)) {
   returns_.max_count = std::numeric_limits<std::size_t>::max();  // a map is not in a hurry
   returns_.validate();
@@ -33,10 +33,9 @@ bool MapBuilder::add(const lio::Scan& scan) {
     motion.add({scan.t_end, *end});
   }
   motion.sweep(scan.t_begin, scan.t_end, 0.0, segments_);
-  deskew(scan, segments_, end_, returns_, scan_);
-  const NormalResult& result =
-      normal_estimator_.estimate(scan_.points, scan_.viewpoints, executor_);
-  inserted_.add(scan_.size(), map_->insert(scan_.points, result.normals, end_.T_world_lidar()));
+  deskew(scan, segments_, end_, returns_, scan_.scan);
+  preparer_.prepare(scan_);
+  inserted_.add(scan_.scan.size(), preparer_.insert(end_.T_world_lidar(), scan_, *map_));
   placed_.push_back({scan.t_end, *end});
   return true;
 }

@@ -6,12 +6,11 @@
 #include <vector>
 
 #include "app/insert_totals.hpp"
-#include "lio/deskew.hpp"
 #include "lio/executor.hpp"
 #include "lio/lio_map.hpp"
 #include "lio/pipeline_options.hpp"
+#include "lio/scan_preparer.hpp"
 #include "nvm/geometry/trajectory.hpp"
-#include "nvm/normal/normal_estimator.hpp"
 
 namespace nvm::app {
 
@@ -36,10 +35,10 @@ class MapBuilder {
   Trajectory trajectory_;
   Trajectory placed_;
   lio::Executor executor_;
-  NormalEstimator normal_estimator_;
+  lio::ScanPreparer preparer_;
   std::unique_ptr<lio::LioMap> map_;
   std::vector<lio::MotionSegment> segments_;
-  lio::DeskewedScan scan_;
+  lio::PreparedScan scan_;
   InsertTotals inserted_;
 };
 

@@ -4,21 +4,12 @@
 
 #include <functional>
 
+#include "lio/imu_noise.hpp"
 #include "lio/motion_segment.hpp"
 #include "lio/nav_state.hpp"
 #include "lio/sensor_data.hpp"
 
 namespace nvm::lio {
-
-/// Noise of the IMU, as spectral densities (continuous-time white noise and bias random walk).
-struct ImuNoise {
-  double gyro = 5e-4;        ///< [rad/s/sqrt(Hz)]
-  double accel = 4e-3;       ///< [m/s^2/sqrt(Hz)]
-  double gyro_bias = 1e-5;   ///< [rad/s^2/sqrt(Hz)]
-  double accel_bias = 1e-4;  ///< [m/s^3/sqrt(Hz)]
-
-  void validate() const;
-};
 
 /// Part of the error state that LiDAR points measure.
 using MeasuredVector = Eigen::Matrix<double, kMeasuredSize, 1>;

@@ -33,6 +33,7 @@ MatchResult FilterMatcher::match(const LioMap& map, PreparedScan& scan, ErrorSta
   result.iterations = update.iterations;
   result.residuals = fit.residuals;
   result.inlier_share = fit.inlier_share;
+  result.residual_share = fit.residual_share;
   result.residual_rms = fit.rms;
   if (update.applied) {
     correct_deskew(predicted, filter.state(), scan.scan);

@@ -7,7 +7,6 @@
 
 #include "lio/aligned_matcher.hpp"
 #include "lio/map_agreement.hpp"
-#include "lio/plane_projection.hpp"
 #include "lio/pose_covariance.hpp"
 #include "lio/stage_timer.hpp"
 #include "nvm/core/require.hpp"
@@ -55,7 +54,7 @@ InertialPipeline::InertialPipeline(
     : options_((options.validate(), options)),
       executor_(executor),
       initializer_(options.initializer),
-      normal_estimator_(options.normals),
+      preparer_(options.normals, options.max_plane_offset, executor),
       sampler_(options.keypoints),
       judge_(options.imu_input, options.T_imu_lidar, options.initializer.gravity),
       search_(std::make_shared<StartSearch>(alone.search, executor)),
@@ -101,6 +100,7 @@ FrameResult InertialPipeline::process(const Scan& scan) {
   result.T_map_body = filter_->state().T_world_body;
   result.T_map_lidar = filter_->state().T_world_lidar();
   describe_motion(*filter_, samples_.empty() ? nullptr : &samples_.back(), result);
+  result.imu_noise = imu_noise_;
   judge_imu(result);
   return result;
 }
@@ -176,11 +176,7 @@ void InertialPipeline::prepare(const Scan& scan, FrameResult& result) {
     deskew(scan, segments_, filter_->state(), options_.returns, prepared_.scan);
   }
   const StageTimer timer(result.times.normals);
-  DeskewedScan& prepared = prepared_.scan;
-  prepared_.normals = project_to_planes(
-      normal_estimator_.estimate(prepared.points, prepared.viewpoints, executor_),
-      options_.max_plane_offset,
-      prepared);
+  preparer_.prepare(prepared_);
 }
 
 void InertialPipeline::match(FrameResult& result) {
@@ -246,12 +242,10 @@ bool InertialPipeline::is_adrift(const UnobservedDirections& unobserved) const {
 // Of a sure pose few keypoints may fit, as long as the others lie where the map ends.
 bool InertialPipeline::agrees_with_map(const MatchResult& match) const {
   constexpr double kMostly = 0.8;
-  const double inliers = match.inlier_share * static_cast<double>(key_points_.size());
-  const double share = inliers / static_cast<double>(std::max<std::size_t>(1, match.residuals));
   if (match.inlier_share >= options_.min_inlier_share) {
-    return share >= options_.min_inlier_share;
+    return match.residual_share >= options_.min_inlier_share;
   }
-  return share >= kMostly &&
+  return match.residual_share >= kMostly &&
          judge_agreement(*map_, key_points_, key_normals_, filter_->state().T_world_lidar())
                  .share() >= options_.min_inlier_share;
 }
@@ -272,13 +266,12 @@ void InertialPipeline::insert(FrameResult& result) {
   }
   const StageTimer timer(result.times.map_update);
   const Pose T_map_lidar = filter_->state().T_world_lidar();
-  result.inserted = map_->insert(prepared_.scan.points, prepared_.normals, T_map_lidar);
+  result.inserted = preparer_.insert(T_map_lidar, prepared_, *map_);
   search_->insert(key_points_, key_normals_, T_map_lidar);
 }
 
 void InertialOptions::validate() const {
   initializer.validate();
-  imu_noise.validate();
   returns.validate();
   normals.validate();
   keypoints.validate();
@@ -291,6 +284,9 @@ void InertialOptions::validate() const {
       "min_inlier_share",
       min_inlier_share,
       "0 to 1");
+  not_negative(imu_noise.gyro, "imu gyro noise");
+  not_negative(imu_noise.accel, "imu accel noise");
+  ImuNoiseLearner().complete(imu_noise, false).validate();
   not_negative(max_plane_offset, "max_plane_offset");
   not_negative(max_weak_duration, "max_weak_duration");
   not_negative(extrinsic_translation_deviation, "extrinsic_translation_deviation");

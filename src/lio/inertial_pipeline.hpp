@@ -13,13 +13,15 @@
 #include "lio/imu_buffer.hpp"
 #include "lio/imu_initializer.hpp"
 #include "lio/imu_judge.hpp"
+#include "lio/imu_noise_learner.hpp"
 #include "lio/keypoints.hpp"
 #include "lio/lidar_odometry.hpp"
 #include "lio/pipeline.hpp"
 #include "lio/scan_matcher.hpp"
+#include "lio/scan_preparer.hpp"
 #include "lio/start_search.hpp"
 #include "nvm/geometry/trajectory.hpp"
-#include "nvm/normal/normal_estimator.hpp"
+#include "nvm/normal/normal_options.hpp"
 
 namespace nvm::lio {
 
@@ -27,6 +29,7 @@ namespace nvm::lio {
 struct InertialOptions {
   ImuInputOptions imu_input;
   InitializerOptions initializer;
+  /// White noise that is zero is learned from the readings.
   ImuNoise imu_noise;
   /// IMU readings farther apart than this [s] are a gap, which is bridged at constant velocity. 0:
   /// four times what is usual in the stream, and at least 0.05 s.
@@ -103,7 +106,8 @@ class InertialPipeline final : public Pipeline {
   Executor executor_;
   ImuBuffer imu_;
   ImuInitializer initializer_;
-  NormalEstimator normal_estimator_;
+  ImuNoiseLearner noise_learner_;
+  ScanPreparer preparer_;
   KeypointSampler sampler_;
   ImuJudge judge_;
   std::shared_ptr<StartSearch> search_;
@@ -118,6 +122,7 @@ class InertialPipeline final : public Pipeline {
   std::optional<Pose> start_;  ///< T_map_body in a map that others have begun
   std::optional<ErrorStateFilter> filter_;
   double read_until_ = -1e300;                           ///< time of the last reading taken [s]
+  ImuNoise imu_noise_;                                   ///< that the filter works with
   std::optional<double> first_time_;                     ///< of a scan [s]
   StampedPose last_believed_;                            ///< of the last frame that was
   double believed_doubt_ = 0.0;                          ///< of its place [m]

@@ -30,13 +30,15 @@ bool InertialPipeline::initialize(FrameResult& result) {
   for (; judge_.knows_unit() && !unread_.empty(); unread_.pop_front()) {
     const ImuSample sample = judge_.mended(unread_.front());
     initializer_.add(sample);
+    noise_learner_.add(sample);
     if (std::optional<InitialState> initial = initializer_.state()) {
       initial->covariance.diagonal() += extrinsic_deviations().cwiseAbs2();
       initial->state.T_body_lidar = options_.T_imu_lidar;
       if (start_) {
         move_to(*start_, *initial);
       }
-      filter_.emplace(initial->state, initial->covariance, options_.imu_noise);
+      imu_noise_ = noise_learner_.complete(options_.imu_noise, true);
+      filter_.emplace(initial->state, initial->covariance, imu_noise_);
       last_believed_ = {sample.time, initial->state.T_world_body};
       return true;
     }
@@ -92,7 +94,8 @@ void InertialPipeline::join_imu(const MotionFit& motion) {
   initial.state.gyro_bias = motion.gyro_bias;
   initial.state.T_body_lidar = options_.T_imu_lidar;
   initial.covariance.diagonal() += extrinsic_deviations().cwiseAbs2();
-  filter_.emplace(initial.state, initial.covariance, options_.imu_noise);
+  imu_noise_ = noise_learner_.complete(options_.imu_noise, false);
+  filter_.emplace(initial.state, initial.covariance, imu_noise_);
   is_alone_ = false;
   believed_ = 0;
   believed_doubt_ = 0.0;

@@ -7,10 +7,13 @@
 #include <numeric>
 
 #include "nvm/core/require.hpp"
+#include "nvm/map/sighting.hpp"
 
 namespace nvm::lio {
 
 namespace {
+
+constexpr float kMinSqNormal = 0.5F;  // a sighting has 0.25
 
 /// A step through [0, size) that visits each index once and neighbours far apart.
 std::size_t scattered_step(std::size_t size) {
@@ -32,21 +35,25 @@ const std::vector<std::uint32_t>& KeypointSampler::sample(
     const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& normals) {
   chosen_.clear();
   cubes_.clear();
+  sample_where(points, [&](std::size_t i) { return normals[i].squaredNorm() > kMinSqNormal; });
+  sample_where(points, [&](std::size_t i) { return is_sighting(normals[i]); });
+  std::sort(chosen_.begin(), chosen_.end());
+  return chosen_;
+}
+
+template <class Predicate>
+void KeypointSampler::sample_where(
+    const std::vector<Eigen::Vector3f>& points, const Predicate& takes) {
   const std::size_t size = points.size();
-  if (size == 0) {
-    return chosen_;
-  }
   const std::size_t step = scattered_step(size);
   std::size_t index = 0;
   for (std::size_t i = 0; i < size && chosen_.size() < options_.max_count; ++i) {
-    if (!normals[index].isZero() &&
+    if (takes(index) &&
         cubes_.insert(points[index].cast<double>()) == VoxelSet::Insertion::kNewCell) {
       chosen_.push_back(static_cast<std::uint32_t>(index));
     }
     index = (index + step) % size;
   }
-  std::sort(chosen_.begin(), chosen_.end());
-  return chosen_;
 }
 
 void KeypointOptions::validate() const {

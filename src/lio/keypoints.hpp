@@ -26,13 +26,17 @@ class KeypointSampler {
  public:
   explicit KeypointSampler(const KeypointOptions& options);
 
-  /// Indices of the chosen points among `points` [m, scan frame], of those with a normal (not
-  /// zero). The points of a cube have equal chances whatever their place in the scan, so that no
-  /// time of the sweep is preferred; yet the same scan always gives the same answer.
+  /// Indices of the chosen points among `points` [m, scan frame], of those with a normal, and where
+  /// a cube has none with a sighting (nvm/map/sighting.hpp); never with a zero normal. The points
+  /// of a cube have equal chances whatever their place in the scan, so that no time of the sweep is
+  /// preferred; yet the same scan always gives the same answer.
   const std::vector<std::uint32_t>& sample(
       const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& normals);
 
  private:
+  template <class Predicate>
+  void sample_where(const std::vector<Eigen::Vector3f>& points, const Predicate& takes);
+
   KeypointOptions options_;
   VoxelSet cubes_;
   std::vector<std::uint32_t> chosen_;

@@ -11,6 +11,7 @@
 #include "nvm/map/kd_tree_map.hpp"
 #define NVM_HAS_KD_TREE_MAP
 #endif
+#include "nvm/map/sighting.hpp"
 
 namespace nvm::lio {
 
@@ -18,7 +19,7 @@ namespace {
 
 using Points = std::vector<Eigen::Vector3f>;
 
-/// The points that lie on a surface, for maps that do not ask for normals.
+/// The points that have one, or a sighting, for maps that do not ask for normals.
 const Points& with_normal(const Points& points, const Points& normals, Points& kept) {
   kept.clear();
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -51,7 +52,16 @@ class VoxelLioMap : public LioMap {
   void clear() override { map_.clear(); }
   std::size_t size() const override { return map_.size(); }
   std::size_t memory_bytes() const override { return map_.memory_bytes(); }
-  std::vector<MapPoint> points() const override { return map_.points(); }
+  std::vector<MapPoint> points() const override {
+    std::vector<MapPoint> points = map_.points();
+    points.erase(
+        std::remove_if(
+            points.begin(),
+            points.end(),
+            [](const MapPoint& point) { return is_sighting(point.normal); }),
+        points.end());
+    return points;
+  }
   const VoxelMap* voxel_map() const override { return &map_; }
 
  protected:

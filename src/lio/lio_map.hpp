@@ -22,8 +22,9 @@ class LioMap {
 
   virtual ~LioMap() = default;
 
-  /// Adds a scan: points [m] and unit normals of equal number in the scan frame (Eq. 3). Points
-  /// without a normal (zero) are not stored, by any kind of map: they lie on no surface.
+  /// Adds a scan: points [m] and unit normals or sightings (nvm/map/sighting.hpp) of equal number
+  /// in the scan frame (Eq. 3). Points with neither (zero) are not stored, by any kind of map: they
+  /// lie on no surface.
   virtual InsertStats insert(
       const std::vector<Eigen::Vector3f>& points,
       const std::vector<Eigen::Vector3f>& normals,
@@ -40,6 +41,7 @@ class LioMap {
   virtual void clear() = 0;
   virtual std::size_t size() const = 0;  ///< points
   virtual std::size_t memory_bytes() const = 0;
+  /// Those whose plane is known, or all of a map without normals.
   virtual std::vector<MapPoint> points() const = 0;
 
   /// The voxel map inside, null for a map of another kind.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "nvm/map/sighting.hpp"
 #include "nvm/registration/plane.hpp"
 
 namespace nvm::lio {
@@ -80,6 +81,9 @@ MapAgreement judge_agreement(
   Surfaces surfaces(map);
   const std::size_t stride = points.size() / kMaxPoints + 1;
   for (std::size_t i = 0; i < points.size(); i += stride) {
+    if (is_sighting(normals[i])) {
+      continue;
+    }
     const Eigen::Vector3d place = T_map_scan * points[i].cast<double>();
     const Eigen::Vector3f normal = (T_map_scan.linear() * normals[i].cast<double>()).cast<float>();
     const std::optional<Plane> plane = surfaces.near(place, normal, kReach);

@@ -25,8 +25,9 @@ struct MapAgreement {
   }
 };
 
-/// Judges a scan, `points` [m] with their unit normals as seen by a LiDAR at the origin of the scan
-/// frame, at a pose. Looks at 150 of them at most, along their beams: too slow for every frame.
+/// Judges a scan, `points` [m] with their unit normals (sightings are passed over) as seen by a
+/// LiDAR at the origin of the scan frame, at a pose. Looks at 150 of them at most, along their
+/// beams: too slow for every frame.
 MapAgreement judge_agreement(
     const LioMap& map,
     const std::vector<Eigen::Vector3f>& points,

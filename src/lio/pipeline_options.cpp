@@ -48,6 +48,8 @@ PipelineOptions::PipelineOptions() {
   map.min_point_distance = 0.07;
   map.points_per_surface = 30;
   map.max_merged_points = 8;
+  inertial.imu_noise.gyro = 0.0;  // to be learned
+  inertial.imu_noise.accel = 0.0;
   inertial.normals.min_range = inertial.returns.min_range;
   inertial.normals.max_range = inertial.returns.max_range;
   inertial.normals.widening = 2.0;

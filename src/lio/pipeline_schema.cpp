@@ -96,12 +96,15 @@ void bind_normals(Schema& schema, NormalOptions& normals) {
 void bind_imu(Schema& schema, InertialOptions& inertial) {
   ImuNoise& noise = inertial.imu_noise;
   schema.add(
-      "gyro_noise", noise.gyro, kPositive, "The noise density of the gyroscope [rad/s/sqrt(Hz)]");
+      "gyro_noise",
+      noise.gyro,
+      kNotNegative,
+      "The noise density of the gyroscope [rad/s/sqrt(Hz)]; 0: learned from its readings");
   schema.add(
       "accel_noise",
       noise.accel,
-      kPositive,
-      "The noise density of the accelerometer [m/s^2/sqrt(Hz)]");
+      kNotNegative,
+      "The noise density of the accelerometer [m/s^2/sqrt(Hz)]; 0: learned from its readings");
   schema.add(
       "gyro_bias_walk",
       noise.gyro_bias,

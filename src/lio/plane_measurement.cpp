@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "nvm/core/require.hpp"
-#include "nvm/registration/plane.hpp"
+#include "nvm/map/sighting.hpp"
 
 namespace nvm::lio {
 
@@ -87,11 +87,7 @@ void PlaneMeasurement::associate_one(
     return;
   }
   const std::optional<Plane> plane = fit_plane(found.data(), count);
-  if (!plane || plane->deviation[0] > options_.max_plane_deviation ||
-      plane->planarity < options_.min_planarity) {
-    return;
-  }
-  if (std::abs(plane->normal.dot(n_map.cast<double>())) < std::cos(options_.max_normal_angle)) {
+  if (!plane || !belongs(*plane, n_map)) {
     return;
   }
   const Eigen::Vector3d offset = point - plane->centroid;
@@ -107,6 +103,16 @@ void PlaneMeasurement::associate_one(
   r.plane_variance = scatter * lever;
   r.planarity = plane->planarity;
   r.valid = true;
+}
+
+/// Whether `plane` is one that a keypoint with this normal or sighting [map frame] can lie on.
+bool PlaneMeasurement::belongs(const Plane& plane, const Eigen::Vector3f& n_map) const {
+  if (is_sighting(n_map)) {
+    return options_.sighting.accept(plane, n_map);
+  }
+  return plane.deviation[0] <= options_.max_plane_deviation &&
+         plane.planarity >= options_.min_planarity &&
+         std::abs(plane.normal.dot(n_map.cast<double>())) >= std::cos(options_.max_normal_angle);
 }
 
 bool PlaneMeasurement::linearize(const NavState& state, Information& out) {
@@ -160,10 +166,10 @@ void PlaneMeasurement::add_block(
 
 FitSummary PlaneMeasurement::summary() const {
   FitSummary fit;
-  fit.keypoints = residuals_.size();
   std::size_t inliers = 0;
   double sq_sum = 0.0;
   for (const PlaneResidual& r : residuals_) {
+    fit.keypoints += r.valid || !is_sighting(r.n_lidar) ? 1 : 0;
     if (!r.valid) {
       continue;
     }
@@ -175,6 +181,7 @@ FitSummary PlaneMeasurement::summary() const {
   }
   if (inliers > 0) {
     fit.inlier_share = static_cast<double>(inliers) / static_cast<double>(fit.keypoints);
+    fit.residual_share = static_cast<double>(inliers) / static_cast<double>(fit.residuals);
     fit.rms = std::sqrt(sq_sum / static_cast<double>(inliers));
   }
   return fit;

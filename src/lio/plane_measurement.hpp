@@ -11,6 +11,8 @@
 #include "lio/error_state_filter.hpp"
 #include "lio/executor.hpp"
 #include "lio/lio_map.hpp"
+#include "nvm/registration/plane.hpp"
+#include "nvm/registration/sighting_options.hpp"
 
 namespace nvm::lio {
 
@@ -31,6 +33,8 @@ struct MeasurementOptions {
   double max_normal_angle = 0.5;
   /// Planes less planar than this (a2D of spec §4) are lines, 0 to 1.
   double min_planarity = 0.2;
+  /// Instead of these two for keypoints with a sighting for a normal.
+  SightingOptions sighting;
   /// Standard deviations of a point: along the beam [m], after it has been moved onto the plane of
   /// its neighbourhood, and across it as an angle [rad].
   double range_deviation = 0.005;
@@ -51,7 +55,7 @@ struct MeasurementOptions {
 /// A keypoint and the plane it was associated with.
 struct PlaneResidual {
   Eigen::Vector3d p_lidar;       ///< scan frame, deskewed with the predicted state [m]
-  Eigen::Vector3f n_lidar;       ///< unit normal, scan frame
+  Eigen::Vector3f n_lidar;       ///< unit normal or sighting, scan frame
   float age = 0.0F;              ///< before the scan's end [s]
   Eigen::Vector3f beam;          ///< unit, from the LiDAR to the point, scan frame
   float range = 0.0F;            ///< [m]
@@ -65,10 +69,11 @@ struct PlaneResidual {
 
 /// How well the scan fits the map at the last state evaluated.
 struct FitSummary {
-  std::size_t keypoints = 0;
-  std::size_t residuals = 0;  ///< keypoints that found a plane
-  double inlier_share = 0.0;  ///< of the keypoints: residuals within three standard deviations
-  double rms = 0.0;           ///< of the inliers' distances [m]
+  std::size_t keypoints = 0;    ///< without sightings that found no plane: those say nothing
+  std::size_t residuals = 0;    ///< keypoints that found a plane
+  double inlier_share = 0.0;    ///< of the keypoints: residuals within three standard deviations
+  double residual_share = 0.0;  ///< the same, of the residuals
+  double rms = 0.0;             ///< of the inliers' distances [m]
 };
 
 /// The point-to-plane measurement of a scan against a map.
@@ -106,6 +111,7 @@ class PlaneMeasurement {
       const NavState& state,
       LioMap::QueryContext& context,
       PlaneResidual& r) const;
+  bool belongs(const Plane& plane, const Eigen::Vector3f& n_map) const;
   void add_block(const NavState& state, std::size_t begin, std::size_t end, Information& out);
   Eigen::Vector3d world_point(const NavState& state, const PlaneResidual& r) const;
   double variance(const NavState& state, const PlaneResidual& r) const;

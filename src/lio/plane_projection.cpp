@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "nvm/map/sighting.hpp"
+
 namespace nvm::lio {
 
 namespace {
@@ -64,8 +66,8 @@ std::vector<Eigen::Vector3f> project_to_planes(
         estimated.plane_variances[i] <= max_variance * noise_scatter(sine) &&
         std::abs(offset) <= static_cast<float>(max_offset)) {
       scan.points[i] += offset * normals[i];
-    } else {
-      normals[i].setZero();
+    } else if (estimated.status[i] != NormalStatus::kNotPlanar) {
+      normals[i] = sighting(scan.points[i], scan.viewpoints[i].cast<double>());
     }
   }
   return normals;

@@ -2,30 +2,22 @@
 // Copyright (c) 2026 The nvm authors
 #pragma once
 
-#include <Eigen/Core>
-#include <cstdint>
-#include <vector>
+#include <cstddef>
 
-#include "lio/deskew.hpp"
 #include "lio/error_state_filter.hpp"
 #include "lio/lio_map.hpp"
+#include "lio/prepared_scan.hpp"
 #include "lio/unobserved_directions.hpp"
 
 namespace nvm::lio {
 
-/// A deskewed scan on its way into the map.
-struct PreparedScan {
-  DeskewedScan scan;
-  std::vector<Eigen::Vector3f> normals;  ///< unit, scan frame; zero where there is no plane
-  std::vector<std::uint32_t> keypoints;  ///< indices of the points to match
-};
-
 /// How a scan was matched to the map.
 struct MatchResult {
-  bool accepted = false;      ///< false: too little fits, the filter keeps its prediction
-  std::size_t residuals = 0;  ///< keypoints that found a plane
-  double inlier_share = 0.0;  ///< of the keypoints, 0 to 1
-  double residual_rms = 0.0;  ///< [m]
+  bool accepted = false;        ///< false: too little fits, the filter keeps its prediction
+  std::size_t residuals = 0;    ///< keypoints that found a plane
+  double inlier_share = 0.0;    ///< of the keypoints, 0 to 1
+  double residual_share = 1.0;  ///< of the residuals that fit, 0 to 1
+  double residual_rms = 0.0;    ///< [m]
   UnobservedDirections unobserved;
   int iterations = 0;
 };

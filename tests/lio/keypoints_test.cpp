@@ -49,6 +49,15 @@ TEST(KeypointSampler, TakesOnePointWithANormalPerCube) {
   EXPECT_EQ(found, expected);
 }
 
+TEST(KeypointSampler, TakesASightingWhereNoPointHasANormal) {
+  const std::vector<Eigen::Vector3f> points = {
+      {0.1F, 0.1F, 0.1F}, {0.2F, 0.2F, 0.2F}, {1.1F, 0.1F, 0.1F}, {2.1F, 0.1F, 0.1F}};
+  const Eigen::Vector3f up = Eigen::Vector3f::UnitZ();
+  const std::vector<Eigen::Vector3f> normals = {0.5F * up, up, 0.5F * up, Eigen::Vector3f::Zero()};
+  KeypointSampler sampler({0.5, 100});
+  EXPECT_EQ(sampler.sample(points, normals), (std::vector<std::uint32_t>{1, 2}));
+}
+
 TEST(KeypointSampler, SpreadsALimitedNumberOverTheWholeScan) {
   const Cloud cloud = random_cloud(5000);
   KeypointSampler sampler({0.05, 500});

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+namespace nvm::lio {
+
+/// Noise of the IMU, as spectral densities (continuous-time white noise and bias random walk).
+struct ImuNoise {
+  double gyro = 5e-4;        ///< [rad/s/sqrt(Hz)]
+  double accel = 4e-3;       ///< [m/s^2/sqrt(Hz)]
+  double gyro_bias = 1e-5;   ///< [rad/s^2/sqrt(Hz)]
+  double accel_bias = 1e-4;  ///< [m/s^3/sqrt(Hz)]
+
+  void validate() const;
+};
+
+}  // namespace nvm::lio
