@@ -3,6 +3,7 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/string.h>
 
+#include <algorithm>
 #include <memory>
 #include <mutex>
 #include <stdexcept>
@@ -14,6 +15,7 @@
 #include "config/schema.hpp"
 #include "lio/pipeline_options.hpp"
 #include "nvm/map/serialization.hpp"
+#include "nvm/map/sighting.hpp"
 #include "odometry_docs.hpp"
 #include "shared_map.hpp"
 #include "timed_scan.hpp"
@@ -110,6 +112,7 @@ class Odometry {
       points = pipeline_->scan().points;
       normals = pipeline_->normals();
     }
+    std::transform(normals.begin(), normals.end(), normals.begin(), plane_normal);
     normals.resize(points.size(), Eigen::Vector3f::Zero());
     return nb::make_tuple(to_array(points), to_array(normals));
   }

@@ -13,6 +13,7 @@
 #include "io/map_cloud.hpp"
 #include "io/map_files.hpp"
 #include "nvm/map/serialization.hpp"
+#include "nvm/map/sighting.hpp"
 
 namespace nvm::app {
 
@@ -27,7 +28,7 @@ void write_cloud(const ExportArguments& arguments) {
   doing("making way for " + arguments.cloud, [&] { remove_leftovers(arguments.cloud); });
   const Eigen::Vector3d origin = read_origin(arguments.map);
   const io::MapCloud cloud = doing("exporting " + arguments.map, [&] {
-    return io::map_cloud_of(load_map(arguments.map).points(), origin);
+    return io::map_cloud_of(without_sightings(load_map(arguments.map).points()), origin);
   });
   const Interruption interruption;
   doing("writing " + arguments.cloud, [&] { io::write_map_cloud(arguments.cloud, cloud); });

@@ -52,16 +52,7 @@ class VoxelLioMap : public LioMap {
   void clear() override { map_.clear(); }
   std::size_t size() const override { return map_.size(); }
   std::size_t memory_bytes() const override { return map_.memory_bytes(); }
-  std::vector<MapPoint> points() const override {
-    std::vector<MapPoint> points = map_.points();
-    points.erase(
-        std::remove_if(
-            points.begin(),
-            points.end(),
-            [](const MapPoint& point) { return is_sighting(point.normal); }),
-        points.end());
-    return points;
-  }
+  std::vector<MapPoint> points() const override { return without_sightings(map_.points()); }
   const VoxelMap* voxel_map() const override { return &map_; }
 
  protected:
@@ -143,7 +134,9 @@ class RejectLioMap final : public VoxelLioMap {
       QueryContext& context) const noexcept override {
     const std::size_t count = map_.nearest(point, search, out, context);
     const Neighbor* end = std::remove_if(out, out + count, [&](const Neighbor& neighbor) {
-      return map_.normal(neighbor.id).dot(normal) < min_cosine_;
+      const Eigen::Vector3f stored = map_.normal(neighbor.id);
+      return (is_sighting(stored) && !is_sighting(normal)) ||
+             stored.dot(normal) < min_cosine_ * stored.norm() * normal.norm();
     });
     return static_cast<std::size_t>(end - out);
   }

@@ -92,8 +92,8 @@ class Pipeline {
 
   virtual const LioMap& map() const = 0;
 
-  /// The scan that process() took last, and its normals: unit vectors in the scan frame, zero where
-  /// there is no plane. Only of use when that gave a pose.
+  /// The scan that process() took last, and its normals: unit vectors in the scan frame, a sighting
+  /// (nvm/map/sighting.hpp) or zero where there is no plane. Only of use when that gave a pose.
   virtual const DeskewedScan& scan() const = 0;
   virtual const std::vector<Eigen::Vector3f>& normals() const = 0;
 

@@ -9,6 +9,7 @@
 
 #include "lio/place_judge.hpp"
 #include "lio/scan_witness.hpp"
+#include "nvm/map/sighting.hpp"
 
 namespace nvm::lio {
 
@@ -70,8 +71,9 @@ PlaceSearch::PlaceSearch(const VoxelMap& map, const Executor& executor)
       coarse_(StartSearchOptions{}, executor),
       aligner_(fine_options()) {
   coarse_.insert(map);
-  map.for_each_point(
-      [&](const MapPoint& point) { outline_.add(point.position, point.normal.cast<double>()); });
+  map.for_each_point([&](const MapPoint& point) {
+    outline_.add(point.position, plane_normal(point.normal).cast<double>());
+  });
 }
 
 Place PlaceSearch::near(

@@ -14,7 +14,7 @@ namespace nvm {
 struct MapPoint {
   Eigen::Vector3d position;  ///< [m], map frame
   Eigen::Vector3f
-      normal;  ///< unit length, looks at where the point was seen from; zero when it has none
+      normal;  ///< unit length, looks at where the point was seen from; a sighting or zero: none
   int side;    ///< surface of its voxel: 0 front, 1 back
 };
 

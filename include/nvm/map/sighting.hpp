@@ -3,10 +3,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <vector>
 
 #include "nvm/core/target.hpp"
+#include "nvm/map/map_point.hpp"
 #include "nvm/map/view_direction.hpp"
 
 namespace nvm {
@@ -42,6 +45,17 @@ inline bool is_sighting_length(float sq_length) {
 /// True for a vector of half a unit's length.
 inline bool is_sighting(const Eigen::Vector3f& normal) {
   return is_sighting_length(normal.squaredNorm());
+}
+
+/// `normal`, or zero for a sighting: for those who ask for planes only.
+inline Eigen::Vector3f plane_normal(const Eigen::Vector3f& normal) {
+  return is_sighting(normal) ? Eigen::Vector3f(Eigen::Vector3f::Zero()) : normal;
+}
+/// The points of a map but its sightings: those that are known to lie on a surface.
+inline std::vector<MapPoint> without_sightings(std::vector<MapPoint> points) {
+  const auto is_seen = [](const MapPoint& point) { return is_sighting(point.normal); };
+  points.erase(std::remove_if(points.begin(), points.end(), is_seen), points.end());
+  return points;
 }
 
 }  // namespace NVM_TARGET
