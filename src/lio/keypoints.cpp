@@ -29,27 +29,44 @@ std::size_t scattered_step(std::size_t size) {
 }  // namespace
 
 KeypointSampler::KeypointSampler(const KeypointOptions& options)
-    : options_((options.validate(), options)), cubes_(options.spacing) {}
+    : options_((options.validate(), options)) {
+  constexpr int kHalvings = 3;
+  for (int i = 0; i <= kHalvings; ++i) {
+    cubes_.emplace_back(std::ldexp(options_.spacing, -i));
+  }
+}
 
 const std::vector<std::uint32_t>& KeypointSampler::sample(
     const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& normals) {
-  chosen_.clear();
-  cubes_.clear();
-  sample_where(points, [&](std::size_t i) { return normals[i].squaredNorm() > kMinSqNormal; });
-  sample_where(points, [&](std::size_t i) { return is_sighting(normals[i]); });
+  const auto has_plane = [&](std::size_t i) { return normals[i].squaredNorm() > kMinSqNormal; };
+  const std::size_t enough = std::min(options_.min_count, options_.max_count);
+  auto cubes = cubes_.begin();
+  choose(points, has_plane, *cubes);
+  while (chosen_.size() < enough && cubes + 1 != cubes_.end()) {
+    choose(points, has_plane, *++cubes);
+  }
+  add(points, [&](std::size_t i) { return is_sighting(normals[i]); }, *cubes);
   std::sort(chosen_.begin(), chosen_.end());
   return chosen_;
 }
 
 template <class Predicate>
-void KeypointSampler::sample_where(
-    const std::vector<Eigen::Vector3f>& points, const Predicate& takes) {
+void KeypointSampler::choose(
+    const std::vector<Eigen::Vector3f>& points, const Predicate& takes, VoxelSet& cubes) {
+  chosen_.clear();
+  cubes.clear();
+  add(points, takes, cubes);
+}
+
+template <class Predicate>
+void KeypointSampler::add(
+    const std::vector<Eigen::Vector3f>& points, const Predicate& takes, VoxelSet& cubes) {
   const std::size_t size = points.size();
   const std::size_t step = scattered_step(size);
   std::size_t index = 0;
   for (std::size_t i = 0; i < size && chosen_.size() < options_.max_count; ++i) {
     if (takes(index) &&
-        cubes_.insert(points[index].cast<double>()) == VoxelSet::Insertion::kNewCell) {
+        cubes.insert(points[index].cast<double>()) == VoxelSet::Insertion::kNewCell) {
       chosen_.push_back(static_cast<std::uint32_t>(index));
     }
     index = (index + step) % size;

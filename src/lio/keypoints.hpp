@@ -17,6 +17,10 @@ struct KeypointOptions {
   double spacing = 0.35;
   /// Keypoints at most, 10 to 100000.
   std::size_t max_count = 1500;
+  /// A scan that shows little, as a wall close in front of a narrow field of view, gets finer cubes
+  /// until it has that many with a normal: of half the edge, up to three times. Twice what an update
+  /// needs.
+  std::size_t min_count = 100;
 
   void validate() const;
 };
@@ -34,11 +38,16 @@ class KeypointSampler {
       const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& normals);
 
  private:
+  /// One point in each of `cubes`, of those that `takes` takes by their indices.
   template <class Predicate>
-  void sample_where(const std::vector<Eigen::Vector3f>& points, const Predicate& takes);
+  void choose(
+      const std::vector<Eigen::Vector3f>& points, const Predicate& takes, VoxelSet& cubes);
+  /// The same where `cubes` has none.
+  template <class Predicate>
+  void add(const std::vector<Eigen::Vector3f>& points, const Predicate& takes, VoxelSet& cubes);
 
   KeypointOptions options_;
-  VoxelSet cubes_;
+  std::vector<VoxelSet> cubes_;  ///< ever finer
   std::vector<std::uint32_t> chosen_;
 };
 

@@ -204,6 +204,11 @@ void bind_matching(Schema& schema, PipelineOptions& options) {
       {10.0, 1e5},
       "A scan has at most this many keypoints");
   schema.add(
+      "min_keypoints",
+      inertial.keypoints.min_count,
+      {0.0, 1e5},
+      "The spacing is halved, up to three times, until a scan has this many keypoints");
+  schema.add(
       "min_inlier_share",
       inertial.min_inlier_share,
       kShare,

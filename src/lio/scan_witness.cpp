@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "lio/covered_face.hpp"
+#include "nvm/map/sighting.hpp"
 
 namespace nvm::lio {
 
@@ -101,7 +102,7 @@ Testimonies ScanWitness::testify(const VoxelMap& map, const Pose& T_map_scan) co
   map.for_each_within(origin, kMaxRange, [&](const Neighbor& neighbor) {
     Face face;
     face.center = R_scan_map * (neighbor.position - origin).template cast<float>();
-    face.normal = R_scan_map * map.normal(neighbor.id);
+    face.normal = R_scan_map * plane_normal(map.normal(neighbor.id));
     face.range = face.center.norm();
     if (face.range > kMinRange && -face.normal.dot(face.center) > kMinCosine * face.range) {
       look_through(face, question);

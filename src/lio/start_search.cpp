@@ -31,7 +31,7 @@ AlignOptions align_options(const StartSearchOptions& options) {
 
 KeypointOptions keypoint_options(const StartSearchOptions& options) {
   constexpr std::size_t kMaxCount = 500;
-  return {options.keypoint_spacing, kMaxCount};
+  return {options.keypoint_spacing, kMaxCount, 0};
 }
 
 }  // namespace

@@ -71,6 +71,22 @@ TEST(KeypointSampler, SpreadsALimitedNumberOverTheWholeScan) {
   EXPECT_EQ(chosen, sampler.sample(cloud.points, cloud.normals));
 }
 
+/// A square metre of wall has 9 cubes of a third of a metre, and is all that a sensor may see.
+TEST(KeypointSampler, TakesMoreOfAScanThatShowsLittle) {
+  Cloud wall = random_cloud(5000);
+  for (Eigen::Vector3f& point : wall.points) {
+    point = {0.65F, point.y() / 6.0F, point.z() / 6.0F};
+  }
+  const auto count = [&](std::size_t min_count, std::size_t max_count) {
+    return KeypointSampler({0.34, max_count, min_count}).sample(wall.points, wall.normals).size();
+  };
+  EXPECT_LE(count(0, 1500), 16U);
+  EXPECT_GE(count(100, 1500), 100U);
+  EXPECT_LE(count(100, 1500), 256U);  // no more than it takes
+  EXPECT_LE(count(100'000, 100'000), 1024U);
+  EXPECT_EQ(count(100'000, 50), 50U);
+}
+
 TEST(KeypointSampler, AcceptsAnEmptyScan) {
   KeypointSampler sampler({});
   EXPECT_TRUE(sampler.sample({}, {}).empty());
