@@ -13,7 +13,11 @@ MapBuilder::MapBuilder(const lio::PipelineOptions& options, const Trajectory& T_
     : returns_(options.inertial.returns),
       trajectory_(T_map_body),
       executor_(options.threads),
-      preparer_(options.inertial.normals, options.inertial.max_plane_offset, executor_),
+      preparer_(
+          options.inertial.normals,
+          options.inertial.max_plane_offset,
+          options.inertial.keypoints,
+          executor_),
       map_(lio::make_map(options.map_type, options.map)) {
   returns_.max_count = std::numeric_limits<std::size_t>::max();  // a map is not in a hurry
   returns_.validate();

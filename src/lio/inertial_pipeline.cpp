@@ -54,8 +54,7 @@ InertialPipeline::InertialPipeline(
     : options_((options.validate(), options)),
       executor_(executor),
       initializer_(options.initializer),
-      preparer_(options.normals, options.max_plane_offset, executor),
-      sampler_(options.keypoints),
+      preparer_(options.normals, options.max_plane_offset, options.keypoints, executor),
       judge_(options.imu_input, options.T_imu_lidar, options.initializer.gravity),
       search_(std::make_shared<StartSearch>(alone.search, executor)),
       map_(std::move(map)),
@@ -181,7 +180,6 @@ void InertialPipeline::prepare(const Scan& scan, FrameResult& result) {
 
 void InertialPipeline::match(FrameResult& result) {
   const StageTimer timer(result.times.optimize);
-  prepared_.keypoints = sampler_.sample(prepared_.scan.points, prepared_.normals);
   pick(prepared_.scan.points, prepared_.keypoints, key_points_);
   pick(prepared_.normals, prepared_.keypoints, key_normals_);
   result.points = prepared_.scan.size();

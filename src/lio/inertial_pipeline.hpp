@@ -108,7 +108,6 @@ class InertialPipeline final : public Pipeline {
   ImuInitializer initializer_;
   ImuNoiseLearner noise_learner_;
   ScanPreparer preparer_;
-  KeypointSampler sampler_;
   ImuJudge judge_;
   std::shared_ptr<StartSearch> search_;
   std::shared_ptr<LioMap> map_;

@@ -45,7 +45,8 @@ const std::vector<std::uint32_t>& KeypointSampler::sample(
   while (chosen_.size() < enough && cubes + 1 != cubes_.end()) {
     choose(points, has_plane, *++cubes);
   }
-  add(points, [&](std::size_t i) { return is_sighting(normals[i]); }, *cubes);
+  const std::size_t most = std::min(options_.max_count, chosen_.size() + options_.max_sightings);
+  add(points, [&](std::size_t i) { return is_sighting(normals[i]); }, most, *cubes);
   std::sort(chosen_.begin(), chosen_.end());
   return chosen_;
 }
@@ -55,16 +56,19 @@ void KeypointSampler::choose(
     const std::vector<Eigen::Vector3f>& points, const Predicate& takes, VoxelSet& cubes) {
   chosen_.clear();
   cubes.clear();
-  add(points, takes, cubes);
+  add(points, takes, options_.max_count, cubes);
 }
 
 template <class Predicate>
 void KeypointSampler::add(
-    const std::vector<Eigen::Vector3f>& points, const Predicate& takes, VoxelSet& cubes) {
+    const std::vector<Eigen::Vector3f>& points,
+    const Predicate& takes,
+    std::size_t max_count,
+    VoxelSet& cubes) {
   const std::size_t size = points.size();
   const std::size_t step = scattered_step(size);
   std::size_t index = 0;
-  for (std::size_t i = 0; i < size && chosen_.size() < options_.max_count; ++i) {
+  for (std::size_t i = 0; i < size && chosen_.size() < max_count; ++i) {
     if (takes(index) &&
         cubes.insert(points[index].cast<double>()) == VoxelSet::Insertion::kNewCell) {
       chosen_.push_back(static_cast<std::uint32_t>(index));

@@ -21,6 +21,9 @@ struct KeypointOptions {
   /// until it has that many with a normal: of half the edge, up to three times. Twice what an update
   /// needs.
   std::size_t min_count = 100;
+  /// Of them with a sighting for a normal, at most: in foliage most points have no plane, and a few
+  /// on a floor tell as much as many.
+  std::size_t max_sightings = 300;
 
   void validate() const;
 };
@@ -42,9 +45,13 @@ class KeypointSampler {
   template <class Predicate>
   void choose(
       const std::vector<Eigen::Vector3f>& points, const Predicate& takes, VoxelSet& cubes);
-  /// The same where `cubes` has none.
+  /// The same where `cubes` has none, until there are `max_count`.
   template <class Predicate>
-  void add(const std::vector<Eigen::Vector3f>& points, const Predicate& takes, VoxelSet& cubes);
+  void add(
+      const std::vector<Eigen::Vector3f>& points,
+      const Predicate& takes,
+      std::size_t max_count,
+      VoxelSet& cubes);
 
   KeypointOptions options_;
   std::vector<VoxelSet> cubes_;  ///< ever finer

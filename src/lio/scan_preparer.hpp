@@ -3,9 +3,9 @@
 #pragma once
 
 #include "lio/executor.hpp"
+#include "lio/keypoints.hpp"
 #include "lio/lio_map.hpp"
 #include "lio/prepared_scan.hpp"
-#include "lio/sighting_settler.hpp"
 #include "nvm/normal/normal_estimator.hpp"
 
 namespace nvm::lio {
@@ -15,19 +15,24 @@ namespace nvm::lio {
 class ScanPreparer {
  public:
   /// `max_plane_offset` [m]: see project_to_planes(). Throws std::invalid_argument for bad options.
-  ScanPreparer(const NormalOptions& normals, double max_plane_offset, const Executor& executor);
+  ScanPreparer(
+      const NormalOptions& normals,
+      double max_plane_offset,
+      const KeypointOptions& keypoints,
+      const Executor& executor);
 
-  /// Estimates the normals of `prepared.scan` and moves its points onto their planes.
+  /// Estimates the normals of `prepared.scan`, moves its points onto their planes and chooses its
+  /// keypoints.
   void prepare(PreparedScan& prepared);
 
-  /// Inserts it at `T_map_lidar`; its points without a plane of their own take the map's first.
-  InsertStats insert(const Pose& T_map_lidar, PreparedScan& prepared, LioMap& map);
+  /// Inserts it at `T_map_lidar`; its keypoints without a plane of their own take the map's first.
+  InsertStats insert(const Pose& T_map_lidar, PreparedScan& prepared, LioMap& map) const;
 
  private:
   NormalEstimator estimator_;
   double max_plane_offset_;
+  KeypointSampler sampler_;
   Executor executor_;
-  SightingSettler settler_;
 };
 
 }  // namespace nvm::lio

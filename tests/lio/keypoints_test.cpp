@@ -54,8 +54,10 @@ TEST(KeypointSampler, TakesASightingWhereNoPointHasANormal) {
       {0.1F, 0.1F, 0.1F}, {0.2F, 0.2F, 0.2F}, {1.1F, 0.1F, 0.1F}, {2.1F, 0.1F, 0.1F}};
   const Eigen::Vector3f up = Eigen::Vector3f::UnitZ();
   const std::vector<Eigen::Vector3f> normals = {0.5F * up, up, 0.5F * up, Eigen::Vector3f::Zero()};
-  KeypointSampler sampler({0.5, 100});
+  KeypointSampler sampler({0.5, 100, 0});
   EXPECT_EQ(sampler.sample(points, normals), (std::vector<std::uint32_t>{1, 2}));
+  KeypointSampler without({0.5, 100, 0, 0});
+  EXPECT_EQ(without.sample(points, normals), (std::vector<std::uint32_t>{1}));
 }
 
 TEST(KeypointSampler, SpreadsALimitedNumberOverTheWholeScan) {

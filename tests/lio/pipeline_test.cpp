@@ -255,7 +255,7 @@ class ADegenerateView : public ::testing::TestWithParam<PipelineType> {
 };
 
 TEST_P(ADegenerateView, OfTheFloorAloneIsReportedAndLeftToTheImu) {
-  const FrameResult result = last_result([](const Eigen::Vector3d& p) { return p.z() < -1.45; });
+  const FrameResult result = last_result([](const Eigen::Vector3d& p) { return p.z() < -1.49; });
   EXPECT_EQ(result.status, FrameStatus::kTracking);
   EXPECT_GE(result.degenerate_directions, 3);
   EXPECT_LT(recording_.error(result), 0.15);
