@@ -46,7 +46,8 @@ const std::vector<std::uint32_t>& KeypointSampler::sample(
     choose(points, has_plane, *++cubes);
   }
   const std::size_t most = std::min(options_.max_count, chosen_.size() + options_.max_sightings);
-  add(points, [&](std::size_t i) { return is_sighting(normals[i]); }, most, *cubes);
+  add(
+      points, [&](std::size_t i) { return is_sighting(normals[i]); }, most, *cubes);
   std::sort(chosen_.begin(), chosen_.end());
   return chosen_;
 }

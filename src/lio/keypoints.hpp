@@ -18,8 +18,8 @@ struct KeypointOptions {
   /// Keypoints at most, 10 to 100000.
   std::size_t max_count = 1500;
   /// A scan that shows little, as a wall close in front of a narrow field of view, gets finer cubes
-  /// until it has that many with a normal: of half the edge, up to three times. Twice what an update
-  /// needs.
+  /// until it has that many with a normal: of half the edge, up to three times. Twice what an
+  /// update needs.
   std::size_t min_count = 100;
   /// Of them with a sighting for a normal, at most: in foliage most points have no plane, and a few
   /// on a floor tell as much as many.
@@ -43,8 +43,7 @@ class KeypointSampler {
  private:
   /// One point in each of `cubes`, of those that `takes` takes by their indices.
   template <class Predicate>
-  void choose(
-      const std::vector<Eigen::Vector3f>& points, const Predicate& takes, VoxelSet& cubes);
+  void choose(const std::vector<Eigen::Vector3f>& points, const Predicate& takes, VoxelSet& cubes);
   /// The same where `cubes` has none, until there are `max_count`.
   template <class Predicate>
   void add(

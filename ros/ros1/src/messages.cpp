@@ -9,7 +9,6 @@
 
 #include "nvm/map/sighting.hpp"
 
-
 namespace nvm_ros {
 
 namespace {
