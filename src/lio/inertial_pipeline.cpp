@@ -17,7 +17,13 @@ namespace {
 
 /// A prediction less sure than this is looked for on a coarse map first [m].
 constexpr double kMaxDoubt = 0.15;
+
 constexpr PoseObservation kFoundAgain{0.2, 0.05};
+
+// So long may scans leave a direction open before the pose counts as adrift [s]. Errors of the
+// map's planes do not average out: an attitude that is wrong by 2 mrad, which the covariance does
+// not know, accelerates the body by 0.02 m/s^2 and moves it by kMaxDoubt in that time.
+constexpr double kMaxBlind = 4.0;
 
 /// Whether a match that began far off is beyond doubt: most of the scan is in the map, and near it.
 bool fits_well(const MatchResult& match, std::size_t keypoints) {
@@ -150,11 +156,17 @@ void InertialPipeline::coast(double until) {
       filter_->coast(until, turns ? turn_rate_ : Eigen::Vector3d(Eigen::Vector3d::Zero())));
 }
 
+// A smooth ride looks like rest to the IMU. Where the scans do not tell the speed, as along a wall
+// that fills the view, the estimate may be slow and wrong.
 void InertialPipeline::use_rest() {
-  constexpr double kSlow = 0.05;  // a smooth ride looks like rest to the IMU [m/s]
+  constexpr double kSlow = 0.05;   // [m/s]
+  constexpr double kDoubts = 3.0;  // standard deviations
   const Stillness stillness = judge_stillness(samples_, options_.initializer);
-  if (stillness.still && filter_->state().velocity.norm() < kSlow) {
+  const double speed_deviation =
+      std::sqrt(filter_->covariance().block<3, 3>(kVelocity, kVelocity).trace());
+  if (stillness.still && filter_->state().velocity.norm() + kDoubts * speed_deviation < kSlow) {
     filter_->observe_rest(stillness.mean_gyro);
+    placed_time_ = filter_->state().time;
   }
 }
 
@@ -203,7 +215,10 @@ void InertialPipeline::match(FrameResult& result) {
   if (match.accepted && (is_sure ? agrees_with_map(match) : fits_well(match, result.keypoints))) {
     believe();
     result.status = FrameStatus::kTracking;
-    if (is_adrift(result.unobserved)) {
+    if (!placed_time_ || result.unobserved.translations.empty()) {
+      placed_time_ = result.time;
+    }
+    if (is_adrift(result.unobserved) || result.time - *placed_time_ > kMaxBlind) {
       result.status = FrameStatus::kDegenerate;
       result.message = "the scan does not tell the pose " + result.unobserved.text();
     }

@@ -125,6 +125,7 @@ class InertialPipeline final : public Pipeline {
   std::optional<double> first_time_;                     ///< of a scan [s]
   StampedPose last_believed_;                            ///< of the last frame that was
   double believed_doubt_ = 0.0;                          ///< of its place [m]
+  std::optional<double> placed_time_;                    ///< of the last that told its place [s]
   std::size_t believed_ = 0;                             ///< frames since the IMU joined
   Eigen::Vector3d turn_rate_ = Eigen::Vector3d::Zero();  ///< by the LiDAR [rad/s], body frame
   // Kept for their memory.

@@ -243,8 +243,9 @@ TEST(InertialPipeline, TakesNoHarmFromReadingsThatAreLateRepeatedOrNotFinite) {
 
 class ADegenerateView : public ::testing::TestWithParam<PipelineType> {
  protected:
-  FrameResult last_result(const std::function<bool(const Eigen::Vector3d&)>& sees) {
-    recording_.duration = 4.0;
+  FrameResult last_result(
+      const std::function<bool(const Eigen::Vector3d&)>& sees, double duration = 4.0) {
+    recording_.duration = duration;
     recording_.points_per_scan = 6000;
     recording_.sees = sees;
     const auto pipeline = make_pipeline(options_for(GetParam()));
@@ -267,6 +268,12 @@ TEST_P(ADegenerateView, OfACorridorIsReportedAndLeftToTheImu) {
   EXPECT_EQ(result.status, FrameStatus::kTracking);
   EXPECT_GE(result.degenerate_directions, 1);
   EXPECT_LT(recording_.error(result), 0.15);
+}
+
+TEST_P(ADegenerateView, ThatLastsIsSaidThoughTheFilterIsSure) {
+  const FrameResult result =
+      last_result([](const Eigen::Vector3d& p) { return p.z() < -1.49; }, 7.0);
+  EXPECT_EQ(result.status, FrameStatus::kDegenerate);
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -155,7 +155,7 @@ sensor_msgs::PointCloud2 frame_message(
   for (std::size_t i = 0; i < points.size(); ++i) {
     write_point(
         T_base_lidar * points[i],
-        T_base_lidar.linear() * plane_normal(pipeline.normals()[i]),
+        T_base_lidar.linear() * nvm::plane_normal(pipeline.normals()[i]),
         &cloud.data[i * cloud.point_step]);
   }
   return cloud;
