@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "fuzz_target.hpp"
+#include "nvm/map/sighting.hpp"
 #include "nvm/map/voxel_map.hpp"
 
 namespace nvm::fuzz {
@@ -22,7 +23,9 @@ inline void audit(const VoxelMap& map) {
     require(point.position.allFinite(), "stored positions are finite");
     require(point.side >= 0 && point.side < options.max_surfaces, "sides are below max_surfaces");
     const float length = point.normal.norm();
-    require(length == 0.0F || std::abs(length - 1.0F) < 1e-3F, "normals are unit vectors or none");
+    require(
+        length == 0.0F || std::abs(length - 1.0F) < 1e-3F || is_sighting(point.normal),
+        "normals are unit vectors, sightings or none");
     const Eigen::Array3d index = (point.position.array() / options.voxel_size).floor();
     ++voxels[{index.x(), index.y(), index.z()}][point.side];
   }

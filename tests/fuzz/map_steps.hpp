@@ -77,8 +77,8 @@ inline void check_insertion(
     const Places& before,
     std::size_t voxels_before) {
   require(
-      stats.stored + stats.too_close + stats.surface_full + stats.no_normal + stats.non_finite +
-              stats.out_of_range + stats.map_full ==
+      stats.stored + stats.settled + stats.too_close + stats.surface_full + stats.no_normal +
+              stats.non_finite + stats.out_of_range + stats.map_full ==
           cloud.points.size(),
       "every point is counted once");
   require(
