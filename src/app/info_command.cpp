@@ -12,6 +12,7 @@
 #include "app/doing.hpp"
 #include "app/map_origin.hpp"
 #include "nvm/map/serialization.hpp"
+#include "nvm/map/sighting.hpp"
 
 namespace nvm::app {
 
@@ -25,8 +26,13 @@ void print_info(const std::string& path) {
   const MapOptions& options = map.options();
   const MapStats stats = map.stats();
   Eigen::AlignedBox3d bounds;
-  map.for_each_point([&](const MapPoint& point) { bounds.extend(point.position + origin); });
-  fmt::print("points            {}\n", stats.points);
+  std::size_t sightings = 0;
+  map.for_each_point([&](const MapPoint& point) {
+    bounds.extend(point.position + origin);
+    sightings += is_sighting(point.normal) ? 1 : 0;
+  });
+  fmt::print("points            {}\n", stats.points - sightings);
+  fmt::print("sightings         {}\n", sightings);
   fmt::print("voxels            {} of at most {}\n", stats.voxels, options.capacity);
   fmt::print("two-sided voxels  {}\n", stats.two_sided_voxels);
   fmt::print("surfaces          {}\n", stats.surfaces);

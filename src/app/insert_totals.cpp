@@ -39,9 +39,8 @@ std::string InsertTotals::why_empty() const {
     return "map.max_bytes is too small for a single scan";
   }
   return fmt::format(
-      "{} of {} returns lie on no surface; when scans are that sparse, normals.min_radius and "
+      "all {} returns lie on no surface; when scans are that sparse, normals.min_radius and "
       "normals.max_radius must be larger; or are coordinates not in metres?",
-      stats.no_normal,
       points);
 }
 

@@ -98,8 +98,8 @@ std::string why_empty(
 }
 
 /// Throws Failure when nothing is worth keeping, for the reason `why`.
-void check_useful(const MapBuilder& builder, const Ending& ending, const std::string& why) {
-  if (builder.map().size() > 0) {
+void check_useful(std::size_t map_points, const Ending& ending, const std::string& why) {
+  if (map_points > 0) {
     return;
   }
   if (ending.signal != 0) {
@@ -139,7 +139,8 @@ void build_map(
     return "";
   });
   print_notes(reader.info());
-  check_useful(builder, ending, why_empty(arguments, builder, poses, scans));
+  const std::size_t map_points = builder.map().points().size();
+  check_useful(map_points, ending, why_empty(arguments, builder, poses, scans));
   io::write_tum(results.path() + "/trajectory.tum", moved(builder.placed(), origin));
   publish(results, builder.map(), origin, ending);
   print_origin(origin);
@@ -148,7 +149,7 @@ void build_map(
       arguments.folder,
       builder.placed().size(),
       scans.count,
-      builder.map().size());
+      map_points);
   check_ending(ending, arguments.folder);
   if (2 * builder.placed().size() < scans.count) {
     throw Failure(

@@ -91,7 +91,8 @@ void run(const RunArguments& arguments, RunOptions& options) {
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
   print_notes(reader->info());
   warn(pipeline->findings());
-  check_useful(summary, pipeline->map().size(), ending, arguments.input);
+  const std::size_t map_points = pipeline->map().points().size();
+  check_useful(summary, map_points, ending, arguments.input);
   warn(summary.warnings());
   attempt({results.path() + "/timing.json"}, ending, [&] {
     write_timing(results.path(), summary, wall.count());
@@ -103,10 +104,10 @@ void run(const RunArguments& arguments, RunOptions& options) {
       arguments.folder,
       summary.poses(),
       summary.frames(),
-      pipeline->map().size(),
+      map_points,
       wall.count());
   check_ending(ending, arguments.folder);
-  check_usable(summary, pipeline->map().size(), arguments.folder);
+  check_usable(summary, map_points, arguments.folder);
 }
 
 }  // namespace
