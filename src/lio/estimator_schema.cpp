@@ -8,28 +8,34 @@ using config::Schema;
 
 namespace {
 
-void bind_align(Schema& schema, AlignOptions& align) {
-  AssociationOptions& association = align.association;
+/// Which neighbours of a point make its plane: of AssociationOptions and MeasurementOptions.
+template <class Options>
+void bind_neighbors(Schema& schema, Options& options) {
   schema.add(
       "neighbors",
-      association.neighbors,
+      options.neighbors,
       {3.0, 64.0},
       "A plane is fitted to at most this many neighbours of a point");
   schema.add(
       "min_neighbors",
-      association.min_neighbors,
+      options.min_neighbors,
       {3.0, 64.0},
       "A plane is fitted to at least this many neighbours of a point");
   schema.add(
       "max_neighbor_distance",
-      association.max_neighbor_distance,
+      options.max_neighbor_distance,
       kPositive,
       "Neighbours of a point are at most this far from it [m]");
   schema.add(
       "max_plane_distance",
-      association.max_plane_distance,
+      options.max_plane_distance,
       kPositive,
       "A point is matched with a plane that is at most this far from it [m]");
+}
+
+void bind_align(Schema& schema, AlignOptions& align) {
+  AssociationOptions& association = align.association;
+  bind_neighbors(schema, association);
   schema.add(
       "planarity_share",
       association.planarity_share,
@@ -58,26 +64,7 @@ void bind_align(Schema& schema, AlignOptions& align) {
 
 void bind_filter(Schema& schema, PipelineOptions& options) {
   MeasurementOptions& m = options.measurement;
-  schema.add(
-      "neighbors",
-      m.neighbors,
-      {3.0, 64.0},
-      "A plane is fitted to at most this many neighbours of a point");
-  schema.add(
-      "min_neighbors",
-      m.min_neighbors,
-      {3.0, 64.0},
-      "A plane is fitted to at least this many neighbours of a point");
-  schema.add(
-      "max_neighbor_distance",
-      m.max_neighbor_distance,
-      kPositive,
-      "Neighbours of a point are at most this far from it [m]");
-  schema.add(
-      "max_plane_distance",
-      m.max_plane_distance,
-      kPositive,
-      "A point is matched with a plane that is at most this far from it [m]");
+  bind_neighbors(schema, m);
   schema.add(
       "max_plane_deviation",
       m.max_plane_deviation,
