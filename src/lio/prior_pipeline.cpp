@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "nvm/map/sighting.hpp"
+
 namespace nvm::lio {
 
 namespace {
@@ -15,7 +17,8 @@ std::unique_ptr<LioMap> usable(const PipelineOptions& options, VoxelMap prior, b
     throw std::invalid_argument("a prior map needs map.type=nvm");
   }
   bool has_normals = false;
-  prior.for_each_point([&](const MapPoint& point) { has_normals |= !point.normal.isZero(); });
+  prior.for_each_point(
+      [&](const MapPoint& point) { has_normals |= !plane_normal(point.normal).isZero(); });
   if (!has_normals) {
     throw std::invalid_argument(
         prior.empty() ? "the prior map has no points"
