@@ -21,14 +21,26 @@ function(nvm_add_component name)
   set_property(GLOBAL APPEND PROPERTY NVM_COMPONENTS ${name})
 endfunction()
 
-# nvm_add_test(NAME SOURCES files... LIBRARIES targets...): one GoogleTest program, each TEST a ctest.
+# nvm_add_test(NAME SOURCES files... THREADED files... LIBRARIES targets...): one GoogleTest program, each TEST a ctest.
+# THREADED are those of its sources that use several threads, the only ones that ThreadSanitizer has something to say of:
+# NVM_TEST_THREADS_ONLY makes tests of no others, and target nvm_thread_tests builds them.
+option(NVM_TEST_THREADS_ONLY "Make only the tests that use several threads" OFF)
+add_custom_target(nvm_thread_tests)
 function(nvm_add_test name)
-  cmake_parse_arguments(arg "" "" "SOURCES;LIBRARIES;LABELS" ${ARGN})
-  add_executable(${name} ${arg_SOURCES})
+  cmake_parse_arguments(arg "" "" "SOURCES;THREADED;LIBRARIES;LABELS" ${ARGN})
+  if(NVM_TEST_THREADS_ONLY AND arg_THREADED)
+    set(arg_SOURCES "")
+  endif()
+  add_executable(${name} ${arg_SOURCES} ${arg_THREADED})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_compile_definitions(${name} PRIVATE NVM_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   target_link_libraries(${name} PRIVATE nvm::nvm nvm_warnings GTest::gmock_main ${arg_LIBRARIES})
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES LABELS "${arg_LABELS}")
+  if(arg_THREADED)
+    add_dependencies(nvm_thread_tests ${name})
+  endif()
+  if(arg_THREADED OR NOT NVM_TEST_THREADS_ONLY)
+    gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES LABELS "${arg_LABELS}")
+  endif()
 endfunction()
 
 # nvm_lint_headers(NAME ROOT FOLDERS folders... CHECKS checks): every header of the folders through clang-tidy
