@@ -31,6 +31,19 @@ bool is_final(ImuVerdict verdict) {
 
 double angle_of(const Eigen::Matrix3d& rotation) { return so3_log(rotation).norm(); }
 
+/// Whether the gyroscope's scale alone is off, by more than the 1 or 2 % that gyroscopes are. What
+/// other clocks or axes leave unexplained is not.
+bool has_wrong_scale(const TurnComparison& turns) {
+  constexpr double kMinError = 0.04, kMaxError = 0.5;  // beyond are units
+  constexpr double kDeviations = 6.0;
+  constexpr double kMinTurned = 1.5;  // [rad]
+  constexpr double kMaxUnexplained = 0.01;
+  const double error = std::abs(turns.scale_of_changes - 1.0);
+  return turns.turned >= kMinTurned && turns.offset == 0.0 && error > kMinError &&
+         error < kMaxError && error > kDeviations * turns.scale_deviation &&
+         turns.unexplained_changes < kMaxUnexplained;
+}
+
 std::string rotation_finding(const TurnComparison& turns, const Pose& T_body_lidar) {
   const Eigen::Matrix3d R = turns.rotation.transpose() * T_body_lidar.linear();
   const Eigen::Quaterniond q(R);
@@ -139,6 +152,18 @@ ImuVerdict ImuJudge::judge_turns(double max_mismatch) {
         1e3 * std::abs(turns->offset),
         turns->offset > 0.0 ? "late" : "early",
         -turns->offset));
+  }
+  if (!is_turned && options_.gyro_scale == 0.0 && has_wrong_scale(*turns)) {
+    gyro_scale_ *= turns->scale_of_changes;
+    history_.clear();
+    tell(printed(
+        "the gyroscope turns by %.1f %% too %s for the scans: multiplied by %.4g (imu.gyro_scale "
+        "sets "
+        "another factor, or 1 for none)",
+        100.0 * std::abs(1.0 / turns->scale_of_changes - 1.0),
+        turns->scale_of_changes < 1.0 ? "much" : "little",
+        gyro_scale_));
+    return ImuVerdict::kMended;
   }
   if (turns->mismatch <= max_mismatch) {
     return ImuVerdict::kGood;

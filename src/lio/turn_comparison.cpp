@@ -4,6 +4,8 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -13,6 +15,7 @@ namespace {
 
 struct Pair {
   Eigen::Vector3d by_scans, by_gyro;
+  double duration;  // [s]
 };
 using Pairs = std::vector<Pair>;
 
@@ -27,7 +30,7 @@ Pairs pairs_at(
     const auto begin = history.turned_at(turn.begin + offset);
     const auto end = history.turned_at(turn.end + offset);
     if (begin && end) {
-      pairs.push_back({turn.by_scans, *end - *begin});
+      pairs.push_back({turn.by_scans, *end - *begin, turn.end - turn.begin});
     }
   }
   return pairs;
@@ -128,6 +131,38 @@ double fitted_scale(const Pairs& pairs, const Eigen::Matrix3d& rotation) {
   return gyro > 0.0 ? both / gyro : 1.0;
 }
 
+/// A straight line through the rates of both.
+void fit_changes(const Pairs& pairs, TurnComparison& comparison) {
+  const auto count = static_cast<double>(pairs.size());
+  const auto scans = [](const Pair& pair) {
+    return Eigen::Vector3d(pair.by_scans / pair.duration);
+  };
+  const auto gyro = [&comparison](const Pair& pair) {
+    return Eigen::Vector3d(comparison.rotation * pair.by_gyro / pair.duration);
+  };
+  Eigen::Vector3d mean_scans = Eigen::Vector3d::Zero();
+  Eigen::Vector3d mean_gyro = Eigen::Vector3d::Zero();
+  for (const Pair& pair : pairs) {
+    mean_scans += scans(pair) / count;
+    mean_gyro += gyro(pair) / count;
+  }
+  double sq_scans = 0.0, sq_gyro = 0.0, both = 0.0;
+  for (const Pair& pair : pairs) {
+    const Eigen::Vector3d scan_change = scans(pair) - mean_scans;
+    const Eigen::Vector3d gyro_change = gyro(pair) - mean_gyro;
+    sq_scans += scan_change.squaredNorm();
+    sq_gyro += gyro_change.squaredNorm();
+    both += scan_change.dot(gyro_change);
+  }
+  if (!(sq_scans > 0.0) || !(sq_gyro > 0.0)) {
+    return;
+  }
+  const double left = std::max(0.0, sq_scans - both * both / sq_gyro);
+  comparison.scale_of_changes = both / sq_gyro;
+  comparison.scale_deviation = std::sqrt(left / (3.0 * count - 4.0) / sq_gyro);
+  comparison.unexplained_changes = left / sq_scans;
+}
+
 }  // namespace
 
 std::optional<TurnComparison> compare_turns(const MotionHistory& history) {
@@ -146,6 +181,7 @@ std::optional<TurnComparison> compare_turns(const MotionHistory& history) {
   fit_rotation(pairs, comparison);
   comparison.scale = fitted_scale(pairs, comparison.rotation);
   comparison.best_mismatch = mismatch_of(pairs, comparison.scale * comparison.rotation);
+  fit_changes(pairs, comparison);
   return comparison;
 }
 

@@ -19,6 +19,9 @@ struct TurnComparison {
   /// The IMU's clock is late by this [s]: a reading stamped t belongs to t - offset.
   double offset = 0.0;
   double scale = 1.0;  ///< the scans' turning over the gyroscope's
+  /// The same of what changes in both, which a bias of the gyroscope does not touch, its standard
+  /// deviation, and the share of the scans' changes that it leaves unexplained, 0 to 1.
+  double scale_of_changes = 1.0, scale_deviation = 1.0, unexplained_changes = 1.0;
   /// From the IMU's axes to those that the poses take for them; identity where they agree.
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   bool is_about_one_axis = true;  ///< `rotation` is known up to a turn about it

@@ -78,6 +78,31 @@ TEST(ImuJudge, TurnsDegreesIntoRadians) {
   EXPECT_LT((mended.gyro - witness.motion.imu(2.0).gyro).norm(), 1e-6);
 }
 
+TEST(ImuJudge, MendsAGyroscopesScaleAlone) {
+  for (const double scale : {0.8, 1.1, 1.2}) {
+    Witness witness;
+    witness.reading = [&](double t) {
+      ImuSample sample = witness.motion.imu(t);
+      sample.gyro = scale * sample.gyro + Eigen::Vector3d(0.0, 0.0, 0.03);  // not taken for scale
+      return sample;
+    };
+    EXPECT_EQ(witness.verdict(8.0), ImuVerdict::kMended) << scale;
+    EXPECT_THAT(
+        witness.judge.findings(),
+        testing::ElementsAre(testing::HasSubstr(scale > 1.0 ? "too much" : "too little")));
+    const Eigen::Vector3d mended = witness.judge.mended({0.0, {0.0, 0.0, scale}, {}}).gyro;
+    EXPECT_NEAR(mended.z(), 1.0, 0.02) << scale;
+  }
+  Witness biased;
+  biased.reading = [&](double t) {
+    ImuSample sample = biased.motion.imu(t);
+    sample.gyro += Eigen::Vector3d(0.03, -0.03, 0.03);
+    return sample;
+  };
+  biased.verdict(8.0);
+  EXPECT_THAT(biased.judge.findings(), testing::IsEmpty());
+}
+
 TEST(ImuJudge, TurnsGIntoMetresPerSquareSecond) {
   Witness witness;
   witness.reading = [&](double t) {
