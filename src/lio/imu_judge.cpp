@@ -69,6 +69,15 @@ std::string rotation_finding(const TurnComparison& turns, const Pose& T_body_lid
           : "");
 }
 
+std::string offset_finding(double offset) {
+  return printed(
+      "the IMU's clock is %.0f ms %s: the scans turn when the gyroscope does only if "
+      "imu.time_offset=%.3f is set",
+      1e3 * std::abs(offset),
+      offset > 0.0 ? "late" : "early",
+      -offset);
+}
+
 }  // namespace
 
 ImuJudge::ImuJudge(const ImuInputOptions& options, const Pose& T_body_lidar, double gravity)
@@ -146,52 +155,56 @@ ImuVerdict ImuJudge::judge_turns(double max_mismatch) {
   const bool is_turned = angle_of(turns->rotation) > kSmallTurn;
   has_offset_ = turns->offset != 0.0 && is_explained;
   if (has_offset_) {
-    tell(printed(
-        "the IMU's clock is %.0f ms %s: the scans turn when the gyroscope does only if "
-        "imu.time_offset=%.3f is set",
-        1e3 * std::abs(turns->offset),
-        turns->offset > 0.0 ? "late" : "early",
-        -turns->offset));
+    tell(offset_finding(turns->offset));
   }
-  if (!is_turned && options_.gyro_scale == 0.0 && has_wrong_scale(*turns)) {
-    gyro_scale_ *= turns->scale_of_changes;
-    history_.clear();
-    tell(printed(
-        "the gyroscope turns by %.1f %% too %s for the scans: multiplied by %.4g (imu.gyro_scale "
-        "sets "
-        "another factor, or 1 for none)",
-        100.0 * std::abs(1.0 / turns->scale_of_changes - 1.0),
-        turns->scale_of_changes < 1.0 ? "much" : "little",
-        gyro_scale_));
-    return ImuVerdict::kMended;
+  const bool may_mend = !is_turned && options_.gyro_scale == 0.0;
+  if (may_mend && has_wrong_scale(*turns)) {
+    const double scale = turns->scale_of_changes;
+    return mend_gyro(
+        scale,
+        printed(
+            "the gyroscope turns by %.1f %% too %s for the scans: multiplied by %.4g "
+            "(imu.gyro_scale sets another factor, or 1 for none)",
+            100.0 * std::abs(1.0 / scale - 1.0),
+            scale < 1.0 ? "much" : "little",
+            scale * gyro_scale_));
   }
   if (turns->mismatch <= max_mismatch) {
     return ImuVerdict::kGood;
   }
-  if (is_explained && !is_turned && is_about(turns->scale, kDegree, 0.2) &&
-      options_.gyro_scale == 0.0) {
-    gyro_scale_ *= kDegree;
-    history_.clear();
-    tell(printed(
-        "the gyroscope turns %.1f times as fast as the scans, so it measures in degrees per "
-        "second: multiplied by 0.0174533 (imu.gyro_scale sets another factor)",
-        1.0 / turns->scale));
-    return ImuVerdict::kMended;
+  if (may_mend && is_explained && is_about(turns->scale, kDegree, 0.2)) {
+    return mend_gyro(
+        kDegree,
+        printed(
+            "the gyroscope turns %.1f times as fast as the scans, so it measures in degrees per "
+            "second: multiplied by 0.0174533 (imu.gyro_scale sets another factor)",
+            1.0 / turns->scale));
   }
   constexpr double kConclusive = 1.5;  // an offset of the clocks may yet explain it [rad]
   if (turns->turned < kConclusive) {
     return ImuVerdict::kUnknown;
   }
-  if (is_explained && is_turned && is_about(turns->scale, 1.0, 0.2)) {
-    tell(rotation_finding(*turns, T_body_lidar_));
-  } else if (turns->offset == 0.0 || !is_explained) {
+  tell_contradiction(*turns, is_explained && is_turned);
+  return ImuVerdict::kUnusable;
+}
+
+void ImuJudge::tell_contradiction(const TurnComparison& turns, bool is_turned) {
+  if (is_turned && is_about(turns.scale, 1.0, 0.2)) {
+    tell(rotation_finding(turns, T_body_lidar_));
+  } else if (!has_offset_) {
     tell(printed(
         "the gyroscope does not turn as the scans do (they differ by %.0f %% of %.1f rad): is "
         "it this LiDAR's IMU, on its clock? The scans alone are used",
-        100.0 * std::sqrt(turns->mismatch),
-        turns->turned));
+        100.0 * std::sqrt(turns.mismatch),
+        turns.turned));
   }
-  return ImuVerdict::kUnusable;
+}
+
+ImuVerdict ImuJudge::mend_gyro(double factor, std::string finding) {
+  gyro_scale_ *= factor;
+  history_.clear();
+  tell(std::move(finding));
+  return ImuVerdict::kMended;
 }
 
 ImuVerdict ImuJudge::judge_gravity() {

@@ -63,6 +63,8 @@ class ImuJudge {
   static constexpr int kUnitCount = 20;
 
   ImuVerdict judge_turns(double max_mismatch);
+  void tell_contradiction(const TurnComparison& turns, bool is_turned);
+  ImuVerdict mend_gyro(double factor, std::string finding);
   ImuVerdict judge_gravity();
   ImuVerdict judge_sign(ImuVerdict turns);
   void measure_in_g();
