@@ -59,7 +59,7 @@ MotionSegment ErrorStateFilter::predict(const ImuSample& a, const ImuSample& b) 
   F.block<3, 3>(kVelocity, kAccelBias) = -dt * R;
   F.block<3, 2>(kVelocity, kGravity) = dv_dgravity;
   covariance_ = (F * covariance_ * F.transpose()).eval();
-  add_noise(covariance_, kRotation, noise_.gyro, dt);
+  add_noise(covariance_, kRotation, std::hypot(noise_.gyro, noise_.gyro_scale * rate.norm()), dt);
   add_noise(covariance_, kVelocity, noise_.accel, dt);
   add_noise(covariance_, kGyroBias, noise_.gyro_bias, dt);
   add_noise(covariance_, kAccelBias, noise_.accel_bias, dt);
@@ -161,6 +161,11 @@ void ImuNoise::validate() const {
   positive(accel, "imu accel noise");
   positive(gyro_bias, "imu gyro bias walk");
   positive(accel_bias, "imu accel bias walk");
+  require(
+      gyro_scale >= 0.0 && std::isfinite(gyro_scale),
+      "imu gyro scale noise",
+      gyro_scale,
+      "0 or more");
 }
 
 void IterationOptions::validate() const {

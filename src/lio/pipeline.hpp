@@ -72,7 +72,7 @@ struct FrameResult {
   int degenerate_directions = 0;    ///< of the pose's six, that the scan does not tell
   UnobservedDirections unobserved;  ///< these directions
   int iterations = 0;
-  ImuNoise imu_noise = {0.0, 0.0, 0.0, 0.0};  ///< given or learned; zero without an IMU
+  ImuNoise imu_noise = {0.0, 0.0, 0.0, 0.0, 0.0};  ///< given or learned; zero without an IMU
   InsertStats inserted;
   StageTimes times;
   std::string message;  ///< why there is no pose, or what was done about bad data

@@ -68,7 +68,7 @@ TEST(ErrorStateFilter, PredictedCovarianceMatchesThePropagatedErrors) {
   const NavState start = boxplus(motion.state(3.0), NavVector::Zero());
   const NavVector error = random_error(generator, 1e-4);
   NavCovariance P = error * error.transpose();
-  ErrorStateFilter reference(start, P, {1e-12, 1e-12, 1e-12, 1e-12});
+  ErrorStateFilter reference(start, P, {1e-12, 1e-12, 1e-12, 1e-12, 0.0});
   ErrorStateFilter disturbed(boxplus(start, error), P, {});
   for (int i = 600; i < 800; ++i) {
     const ImuSample a = motion.imu(0.005 * i);
@@ -79,6 +79,18 @@ TEST(ErrorStateFilter, PredictedCovarianceMatchesThePropagatedErrors) {
   const NavVector propagated = boxminus(disturbed.state(), reference.state());
   const NavCovariance expected = propagated * propagated.transpose();
   EXPECT_LT((reference.covariance() - expected).norm(), 0.02 * expected.norm());
+}
+
+TEST(ErrorStateFilter, DoubtsATurnByAPercentOfIt) {
+  constexpr double kTurn = 0.2;  // over 0.1 s [rad]
+  const Eigen::Vector3d no_force = Eigen::Vector3d::Zero();
+  ErrorStateFilter filter(tilted_state(), NavCovariance::Zero(), {1e-9, 1e-9, 1e-9, 1e-9});
+  const Eigen::Vector3d rate = 10.0 * kTurn * Eigen::Vector3d(0.6, 0.0, 0.8);
+  for (int i = 0; i < 20; ++i) {
+    filter.predict({0.005 * i, rate, no_force}, {0.005 * (i + 1), rate, no_force});
+  }
+  const double variance = filter.covariance().block<3, 3>(kRotation, kRotation).trace() / 3.0;
+  EXPECT_NEAR(std::sqrt(variance), 0.01 * kTurn, 0.001 * kTurn);
 }
 
 /// Planes around the origin, measured at known places of the body with independent noise.
@@ -142,7 +154,7 @@ TEST(ErrorStateFilter, IsConsistentOverMonteCarloRuns) {
     return Eigen::Vector3d(normal(generator), normal(generator), normal(generator));
   };
   const test::AnalyticMotion motion;
-  const ImuNoise noise{1e-3, 1e-2, 1e-4, 1e-3};
+  const ImuNoise noise{1e-3, 1e-2, 1e-4, 1e-3, 0.0};
   const double dt = 0.01;
   NavVector sigma = NavVector::Zero();
   sigma.segment<3>(kPosition).setConstant(0.05);

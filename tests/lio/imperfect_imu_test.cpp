@@ -101,6 +101,15 @@ TEST(ImperfectImu, InDegreesAndGIsMended) {
           ::testing::HasSubstr("in g"), ::testing::HasSubstr("degrees per second")));
 }
 
+TEST(ImperfectImu, WhoseGyroscopeIsOffInScaleKeepsThePose) {
+  for (const double scale : {0.9, 0.97, 1.03, 1.1}) {
+    RoomRecording recording =
+        recording_sending([scale](ImuSample& sample) { sample.gyro *= scale; });
+    recording.motion.turning = 2.0;
+    expect_tracks_from(1.3, recording, run(recording));
+  }
+}
+
 TEST(ImperfectImu, WithoutAccelerationsIsLeftOut) {
   const RoomRecording recording =
       recording_sending([](ImuSample& sample) { sample.accel.setZero(); });

@@ -90,7 +90,8 @@ TEST(ImuJudge, MendsAGyroscopesScaleAlone) {
     EXPECT_THAT(
         witness.judge.findings(),
         testing::ElementsAre(testing::HasSubstr(scale > 1.0 ? "too much" : "too little")));
-    const Eigen::Vector3d mended = witness.judge.mended({0.0, {0.0, 0.0, scale}, {}}).gyro;
+    const Eigen::Vector3d mended =
+        witness.judge.mended({0.0, {0.0, 0.0, scale}, Eigen::Vector3d::Zero()}).gyro;
     EXPECT_NEAR(mended.z(), 1.0, 0.02) << scale;
   }
   Witness biased;
