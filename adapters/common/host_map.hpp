@@ -11,6 +11,7 @@
 #include "adapters/common/host_options.hpp"
 #include "adapters/common/normal_finder.hpp"
 #include "adapters/common/point_fields.hpp"
+#include "adapters/common/sightings.hpp"
 #include "adapters/common/wide_search.hpp"
 #include "nvm/core/point_access.hpp"
 #include "nvm/map/voxel_map.hpp"
@@ -51,17 +52,19 @@ class HostMap {
     return insert(points, normals_.insert_normals(points));
   }
 
-  /// The same with normals of their own, a range as long as `points`. Those that are not unit
-  /// vectors go in without a normal, unless policy `missing` says to drop.
+  /// The same with normals of their own, a range as long as `points`. Sightings become the normals
+  /// of surfaces that the map knows, or stay; what is neither goes in without a normal. Policy
+  /// `missing` may say to drop both.
   template <class Points, class Normals>
   InsertStats insert(const Points& points, const Normals& normals) {
     VoxelMap& map = make_map();
     if (options_.normals.insert == NormalSource::kNone) {
       return evict(map.insert_unsided(points, T_grid_map()));
     }
-    InsertStats stats = map.insert(points, normals, T_grid_map());
+    const std::vector<Eigen::Vector3f> known = settle(points, normals);
+    InsertStats stats = map.insert(points, known, T_grid_map());
     if (stats.no_normal > 0 && options_.normals.missing != MissingNormal::kDrop) {
-      insert_missing(points, normals, stats);
+      insert_missing(points, known, stats);
     }
     return evict(stats);
   }
@@ -74,19 +77,23 @@ class HostMap {
     return nearest(nvm::position(point), normals_.query_normal(point), search, out);
   }
 
-  /// The same with a `normal` in the map frame; one that is not a unit vector stands for none, and
-  /// sees both sides unless policy `missing` says to drop.
+  /// The same with a `normal` in the map frame, or a sighting, which finds a surface or nothing.
+  /// What is neither stands for none, and sees both sides unless policy `missing` says to drop.
   std::size_t nearest(
       const Eigen::Vector3d& point,
       const Eigen::Vector3f& normal,
       const NearestSearch& search,
       Neighbor* out) const noexcept {
-    const bool gated = is_unit_normal(normal);
+    const bool is_sighted = normals_.takes(normal);
+    const bool gated = is_sighted || is_unit_normal(normal);
     if (!map_ || (!gated && refuses_queries_without_normal())) {
       return 0;
     }
     const std::size_t count = nearest_within_reach(
         *map_, to_grid(point), gated ? &normal : nullptr, {search, options_.reach}, out);
+    if (is_sighted && !are_surface(out, count, normal)) {
+      return 0;
+    }
     if (options_.grid_offset != 0.0) {
       std::for_each(out, out + count, [this](Neighbor& n) { n.position = from_grid(n.position); });
     }
@@ -141,11 +148,27 @@ class HostMap {
   }
 
   template <class Points, class Normals>
-  void insert_missing(const Points& points, const Normals& normals, InsertStats& stats) {
+  std::vector<Eigen::Vector3f> settle(const Points& points, const Normals& normals) const {
+    std::vector<Eigen::Vector3f> known(normals.size());
+    VoxelMap::QueryContext context;
+    for (std::size_t i = 0; i < std::min<std::size_t>(points.size(), known.size()); ++i) {
+      known[i] = nvm::position(normals[i]).template cast<float>();
+      if (normals_.takes(known[i])) {
+        known[i] = settled_normal(*map_, to_grid(nvm::position(points[i])), known[i], context);
+      } else if (!is_unit_normal(known[i])) {
+        known[i].setZero();
+      }
+    }
+    return known;
+  }
+
+  template <class Points>
+  void insert_missing(
+      const Points& points, const std::vector<Eigen::Vector3f>& normals, InsertStats& stats) {
     std::vector<Eigen::Vector3d> missing;
     missing.reserve(stats.no_normal);
     for (std::size_t i = 0; i < static_cast<std::size_t>(points.size()); ++i) {
-      if (!is_unit_normal(nvm::position(normals[i]).template cast<float>())) {
+      if (normals[i].isZero()) {
         missing.push_back(nvm::position(points[i]));
       }
     }

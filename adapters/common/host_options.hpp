@@ -23,7 +23,8 @@ enum class NormalSource {
 enum class MissingNormal {
   kDrop,           ///< it is not inserted, and as a query finds nothing (the paper)
   kUngated,        ///< as with NormalSource::kNone
-  kViewDirection,  ///< the direction to the sensor; without a view point as kUngated
+  kViewDirection,  ///< its sighting (sightings.hpp), else the direction to the sensor; without a
+                   ///< view point as kUngated
 };
 
 /// How an adapter uses normals.

@@ -8,6 +8,7 @@
 
 #include "adapters/common/host_options.hpp"
 #include "adapters/common/point_fields.hpp"
+#include "nvm/map/sighting.hpp"
 #include "nvm/map/view_direction.hpp"
 
 namespace nvm::adapters {
@@ -24,12 +25,17 @@ class NormalFinder {
   void set_view_point(const Eigen::Vector3d& p_map_sensor) noexcept { view_point_ = p_map_sensor; }
   const Eigen::Vector3d& view_point() const noexcept { return view_point_; }
 
-  /// The unit normal that a query with this point goes by; zero when it has none.
+  /// Whether `normal` is a sighting, and the policy lets sightings stand for normals.
+  bool takes(const Eigen::Vector3f& normal) const noexcept {
+    return policy_.missing == MissingNormal::kViewDirection && is_sighting(normal);
+  }
+
+  /// The unit normal, or the sighting, that a query with this point goes by; zero when it has none.
   template <class Point>
   Eigen::Vector3f query_normal(const Point& point) const noexcept {
     return find(point, policy_.query);
   }
-  /// The unit normal that this point is inserted with; zero when it has none.
+  /// The same for the point's insertion.
   template <class Point>
   Eigen::Vector3f insert_normal(const Point& point) const noexcept {
     return find(point, policy_.insert);
@@ -53,7 +59,7 @@ class NormalFinder {
   Eigen::Vector3f find(const Point& point, NormalSource source) const noexcept {
     if (source == NormalSource::kPoint) {
       const Eigen::Vector3f normal = normal_field(point);
-      if (is_unit_normal(normal)) {
+      if (is_unit_normal(normal) || takes(normal)) {
         return normal;
       }
     }

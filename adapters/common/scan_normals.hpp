@@ -6,9 +6,19 @@
 #include <cstddef>
 
 #include "adapters/common/point_fields.hpp"
+#include "nvm/map/sighting.hpp"
 #include "nvm/normal/normal_estimator.hpp"
 
 namespace nvm::adapters {
+
+/// What ScanNormals writes for `point`, seen from `p_sensor` [m]: its `normal`, or where that is
+/// zero a sighting (nvm/map/sighting.hpp), which maps behind adapters match by the surfaces that
+/// they know.
+template <class Point>
+Eigen::Vector3f normal_or_sighting(
+    const Eigen::Vector3f& normal, const Point& point, const Eigen::Vector3d& p_sensor) {
+  return is_unit_normal(normal) ? normal : sighting(point, p_sensor);
+}
 
 /// Writes normals into the points of a host, which carry them through its own code to the map. Keep
 /// one per sensor.
@@ -27,8 +37,9 @@ class ScanNormals {
 
   /// Sets normal_x, normal_y, normal_z of each of `points` from its neighbours in `full_scan`, from
   /// which a host thins `points`. Both in the frame of the sensor, which is at `p_sensor` [m]. The
-  /// normals look at the sensor; they are zero where the scan has no plane. Thin first: a filter
-  /// that averages points averages the normals of a wall's two faces to nothing.
+  /// normals look at the sensor; where the scan has no plane they are sightings, of half the
+  /// length. Thin first: a filter that averages points averages the normals of a wall's two faces
+  /// to nothing.
   template <class Points, class FullScan>
   NormalStats write(
       Points& points,
@@ -36,7 +47,7 @@ class ScanNormals {
       const Eigen::Vector3d& p_sensor = Eigen::Vector3d::Zero()) {
     const NormalResult& result = estimator_.estimate_at(points, full_scan, p_sensor);
     for (std::size_t i = 0; i < result.normals.size(); ++i) {
-      set_normal(points[i], result.normals[i]);
+      set_normal(points[i], normal_or_sighting(result.normals[i], points[i], p_sensor));
     }
     return result.stats;
   }
@@ -46,7 +57,7 @@ class ScanNormals {
 };
 
 /// Gives `to` the normal of `from`, rotated by `R_to_from`: what hosts forget when they transform
-/// a point. A missing (zero) normal stays missing.
+/// a point. A sighting stays one, a missing (zero) normal missing.
 template <class From, class To>
 void rotate_normal(const Eigen::Matrix3d& R_to_from, const From& from, To& to) {
   const Eigen::Vector3d rotated = R_to_from * normal_field(from).template cast<double>();

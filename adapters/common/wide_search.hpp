@@ -8,6 +8,7 @@
 #include <cstddef>
 
 #include "nvm/map/neighbor.hpp"
+#include "nvm/map/sighting.hpp"
 #include "nvm/map/voxel_map.hpp"
 
 namespace nvm::adapters {
@@ -77,6 +78,14 @@ std::size_t nearest_wide(
   }
 }
 
+/// Whether a query with `normal`, a unit vector or a sighting, finds points with `stored`, as
+/// VoxelMap::nearest has it: only sightings find sightings.
+inline bool faces(
+    const Eigen::Vector3f& stored, const Eigen::Vector3f& normal, float min_dot) noexcept {
+  return (is_sighting(normal) || !is_sighting(stored)) &&
+         stored.normalized().dot(normal.normalized()) > min_dot;
+}
+
 /// A search that may go on beyond the 27 voxels around the query.
 struct ReachingSearch {
   NearestSearch nearest;
@@ -85,8 +94,8 @@ struct ReachingSearch {
 
 /// VoxelMap::nearest, and when the 27 voxels do not settle the answer within
 /// reaching.nearest.max_distance, nearest_wide to at most reaching.reach. `normal` is a unit
-/// vector, or null to see both sides. Beyond the 27 voxels only the normals of points are compared,
-/// not those of surfaces.
+/// vector or a sighting, or null to see both sides. Beyond the 27 voxels only the normals of points
+/// are compared, not those of surfaces.
 inline std::size_t nearest_within_reach(
     const VoxelMap& map,
     const Eigen::Vector3d& point,
@@ -107,7 +116,7 @@ inline std::size_t nearest_within_reach(
   }
   const auto min_dot = static_cast<float>(std::cos(map.options().max_point_angle));
   const auto agrees = [&](const Neighbor& n) {
-    return normal == nullptr || map.normal(n.id).dot(*normal) > min_dot;
+    return normal == nullptr || faces(map.normal(n.id), *normal, min_dot);
   };
   const NearestSearch wide{search.count, std::min(search.max_distance, reach), search.gate};
   return nearest_wide(map, point, wide, agrees, out);

@@ -18,10 +18,10 @@ namespace nvm::adapters {
 /// An nvm map for ct-lio and the released II-NVM, in place of their `voxelHashMap` and of the
 /// bodies that search it, fill it and evict from it. docs/adapters/ct_lio.md says what to change.
 ///
-/// Defaults: normals are given; points without one are stored without a side, and queries without
-/// one see both sides: to drop them, as the paper has it, takes the floor, and with it the height,
-/// from a sensor with 16 beams. With set_view_point(), MissingNormal::kViewDirection and the
-/// functions without normals, it tells sides by the direction to the sensor.
+/// Defaults: normals or sightings are given; points with neither are stored without a side, and
+/// queries with neither see both sides: to drop them, as the paper has it, takes the floor, and
+/// with it the height, from a sensor with 16 beams. With set_view_point() and the functions without
+/// normals, it tells sides by the direction to the sensor.
 ///
 /// search() may run from many threads at once, every other member needs the map for itself.
 class CtLioMap {
@@ -29,16 +29,11 @@ class CtLioMap {
   using Points = std::vector<Eigen::Vector3d, Eigen::aligned_allocator<Eigen::Vector3d>>;
 
   /// Costs nothing before the first add().
-  CtLioMap() { map_.configure(defaults()); }
+  CtLioMap() = default;
   /// Throws std::invalid_argument when the options are out of range.
   explicit CtLioMap(const HostOptions& options) { map_.configure(options); }
 
-  /// Two sides, normals in the points, points without one in neither.
-  static HostOptions defaults() {
-    HostOptions options;
-    options.normals = {NormalSource::kPoint, NormalSource::kPoint, MissingNormal::kUngated};
-    return options;
-  }
+  static HostOptions defaults() { return {}; }
   /// The host's own map, for comparisons; lengths [m] as the host's options have them. The host
   /// truncates indices toward zero, which makes the voxels at the axes planes twice as wide; here
   /// all are alike.
@@ -62,8 +57,8 @@ class CtLioMap {
 
   /// The up to `count` (at most 64) nearest points, nearest first, that agree with `normal`, all in
   /// the map frame. `ring` 1 looks into 27 voxels, 2 into 125 as the hosts do in their first
-  /// frames; beyond 27 only the normals of points are compared. A `normal` that is not a unit
-  /// vector stands for none.
+  /// frames; beyond 27 only the normals of points are compared. A `normal` that is neither
+  /// a unit vector nor a sighting stands for none.
   Points search(
       const Eigen::Vector3d& point, const Eigen::Vector3d& normal, int count, int ring = 1) const {
     std::array<Neighbor, kMaxNeighbors> found;
@@ -118,7 +113,8 @@ class CtLioMap {
       std::size_t wanted,
       int ring,
       Neighbor* out) const noexcept {
-    const bool gated = is_unit_normal(normal);
+    const bool is_sighted = map_.normals().takes(normal);
+    const bool gated = is_sighted || is_unit_normal(normal);
     const HostOptions& options = map_.options();
     const bool refuses = !gated && options.normals.query != NormalSource::kNone &&
                          options.normals.missing == MissingNormal::kDrop;
@@ -130,10 +126,12 @@ class CtLioMap {
     const Eigen::Array3d center = (point.array() / size).floor();
     const auto accepts = [&](const Neighbor& n) {
       const Eigen::Array3d apart = ((n.position.array() / size).floor() - center).abs();
-      return apart.maxCoeff() <= ring && (!gated || map_.map()->normal(n.id).dot(normal) > min_dot);
+      return apart.maxCoeff() <= ring &&
+             (!gated || faces(map_.map()->normal(n.id), normal, min_dot));
     };
     const NearestSearch search{wanted, (ring + 1) * std::sqrt(3.0) * size, Gate::kPoints};
-    return nearest_wide(*map_.map(), point, search, accepts, out);
+    const std::size_t count = nearest_wide(*map_.map(), point, search, accepts, out);
+    return is_sighted && !are_surface(out, count, normal) ? 0 : count;
   }
 
   HostMap map_;

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <thread>
@@ -98,6 +99,88 @@ TEST(HostMap, FollowsTheSourceOfNormalsAndThePolicyForMissingOnes) {
   EXPECT_EQ(run({kNone, kNone, MissingNormal::kDrop}, true), (Found{4, 4, 4}));
   // Stored with sides, asked without.
   EXPECT_EQ(run({kView, kNone, MissingNormal::kDrop}, true), (Found{4, 4, 4}));
+}
+
+/// A face of a wall in y = `y`, 1 m square, with normals or what stands for them.
+test::HostPoints patch(double y, const Eigen::Vector3f& normal) {
+  test::HostPoints points;
+  for (double x = 0.0; x < 1.0; x += 0.1) {
+    for (double z = 0.0; z < 1.0; z += 0.1) {
+      points.push_back(test::host_point({x, y, z}, normal));
+    }
+  }
+  return points;
+}
+
+HostMap thin_wall_map(MissingNormal missing) {
+  HostOptions options;
+  options.normals.missing = missing;
+  options.map.min_point_distance = 0.0;
+  HostMap map(options);
+  map.insert(patch(0.05, Eigen::Vector3f::UnitY()));
+  map.insert(patch(0.0, -Eigen::Vector3f::UnitY()));
+  return map;
+}
+
+TEST(HostMap, AnswersSightingsBySurfacesOfTheSideThatTheySee) {
+  const HostMap map = thin_wall_map(MissingNormal::kViewDirection);
+  std::array<Neighbor, 5> found;
+  const NearestSearch search{5, 1.0, Gate::kSurfaces};
+  const auto ask = [&](const Eigen::Vector3f& sighting) {
+    return map.nearest(test::host_point({0.52, 0.02, 0.52}, sighting), search, found.data());
+  };
+  const Eigen::Vector3f slanted = 0.5F * Eigen::Vector3f(0.6F, 0.8F, 0.0F);
+  ASSERT_EQ(ask(slanted), 5U);
+  EXPECT_NEAR(found[0].position.y(), 0.05, 1e-3);
+  ASSERT_EQ(ask(-slanted), 5U);
+  EXPECT_NEAR(found[0].position.y(), 0.0, 1e-3);
+  EXPECT_EQ(ask(0.5F * Eigen::Vector3f::UnitX()), 0U) << "along the wall: either side";
+}
+
+TEST(HostMap, GivesSightingsNothingThatIsNoSurface) {
+  HostMap map;
+  const Eigen::Vector3f sighting = 0.5F * Eigen::Vector3f::UnitY();
+  test::HostPoints ring;
+  for (int i = 0; i < 20; ++i) {
+    ring.push_back(test::host_point({0.12 * i, 0.05, 0.5}, sighting));
+  }
+  map.insert(ring);
+  std::array<Neighbor, 5> found;
+  const NearestSearch search{5, 1.0, Gate::kSurfaces};
+  EXPECT_EQ(map.size(), ring.size());
+  EXPECT_EQ(map.nearest(ring[8], search, found.data()), 0U) << "a line";
+  const test::HostPoint normal = test::host_point({0.96, 0.05, 0.5}, Eigen::Vector3f::UnitY());
+  EXPECT_EQ(map.nearest(normal, search, found.data()), 0U) << "only sightings find sightings";
+}
+
+TEST(HostMap, StoresSightingsWithTheNormalsOfSurfacesThatItKnows) {
+  HostMap map = thin_wall_map(MissingNormal::kViewDirection);
+  const Eigen::Vector3d position(0.54, 0.05, 0.54);
+  map.insert(
+      test::HostPoints{test::host_point(position, 0.5F * Eigen::Vector3f(0.6F, 0.8F, 0.0F))});
+  std::size_t seen = 0;
+  map.for_each_point([&](const Eigen::Vector3d& stored, const Eigen::Vector3f& normal) {
+    if ((stored - position).norm() < 1e-3) {
+      ++seen;
+      EXPECT_GT(normal.y(), 0.99F);
+    }
+  });
+  EXPECT_EQ(seen, 1U);
+}
+
+TEST(HostMap, TreatsSightingsAsMissingNormalsWhereThePolicySaysSo) {
+  const test::HostPoint sighting =
+      test::host_point({0.52, 0.02, 0.52}, 0.5F * Eigen::Vector3f::UnitY());
+  std::array<Neighbor, 40> found;
+  const NearestSearch search{40, 0.3, Gate::kSurfaces};
+  HostMap dropping = thin_wall_map(MissingNormal::kDrop);
+  EXPECT_EQ(dropping.nearest(sighting, search, found.data()), 0U);
+  EXPECT_EQ(dropping.insert(test::HostPoints{sighting}).no_normal, 1U);
+  HostMap ungated = thin_wall_map(MissingNormal::kUngated);
+  const std::size_t count = ungated.nearest(sighting, search, found.data());
+  const auto is_back = [](const Neighbor& n) { return n.position.y() < 0.02; };
+  EXPECT_TRUE(std::any_of(found.begin(), found.begin() + count, is_back)) << "both sides";
+  EXPECT_EQ(ungated.insert(test::HostPoints{sighting}).stored, 1U);
 }
 
 TEST(HostMap, EvictsByTheDistanceToTheSensor) {

@@ -55,5 +55,25 @@ TEST(ScanNormals, FindTheFloorUnderASpinningSensor) {
       << "the test shows nothing";
 }
 
+// A single ring on the floor is a line: its points get sightings, which turn with the sensor.
+TEST(ScanNormals, WriteSightingsWhereTheScanHasNoPlane) {
+  test::HostPoints ring;
+  for (int i = 0; i < 600; ++i) {
+    const double azimuth = 0.010472 * i;
+    ring.push_back(test::host_point({5.0 * std::cos(azimuth), 5.0 * std::sin(azimuth), -1.3}));
+  }
+  const test::HostPoints full = ring;
+  adapters::ScanNormals().write(ring, full, {0.0, 0.0, 0.2});
+  const Eigen::Vector3f to_sensor = Eigen::Vector3f(-5.0F, 0.0F, 1.5F).normalized();
+  EXPECT_LT((adapters::normal_field(ring[0]) - 0.5F * to_sensor).norm(), 1e-5F);
+
+  Eigen::Matrix3d quarter_turn;
+  quarter_turn << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  test::HostPoint turned;
+  adapters::rotate_normal(quarter_turn, ring[0], turned);
+  const Eigen::Vector3f turned_view(-to_sensor.y(), to_sensor.x(), to_sensor.z());
+  EXPECT_LT((adapters::normal_field(turned) - 0.5F * turned_view).norm(), 1e-5F);
+}
+
 }  // namespace
 }  // namespace nvm

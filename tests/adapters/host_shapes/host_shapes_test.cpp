@@ -23,18 +23,19 @@ void simulate_partition(const std::string& sensor, const std::string& folder) {
       folder);
 }
 
-/// Never worse than the host's own map, neither in poses nor in walls, and not many times as large.
-void expect_no_loss(const HostRun& own, const HostRun& nvm) {
-  constexpr double kShare = 1.05, kMargin_mm = 0.3;
-  EXPECT_LE(nvm.ate_mm, kShare * own.ate_mm + kMargin_mm);
+/// Better than the host's own map in poses and in walls, and not many times as large: a host adds
+/// each point whose search finds nothing, and sightings find nothing beside an edge.
+void expect_gain(const HostRun& own, const HostRun& nvm) {
+  constexpr double kPoseShare = 0.85, kWallShare = 0.6;
+  EXPECT_LE(nvm.ate_mm, kPoseShare * own.ate_mm);
   EXPECT_EQ(nvm.walls, own.walls);
-  EXPECT_LE(nvm.wall_mm, kShare * own.wall_mm + kMargin_mm);
-  EXPECT_LT(nvm.map_points, 5 * own.map_points);
+  EXPECT_LE(nvm.wall_mm, kWallShare * own.wall_mm);
+  EXPECT_LT(nvm.map_points, 8 * own.map_points);
 }
 
 class HostShapes : public TemporaryFolder, public testing::WithParamInterface<const char*> {};
 
-TEST_P(HostShapes, LoseNothingByPatchB) {
+TEST_P(HostShapes, GainByPatchB) {
   const std::string sequence = path("sequence");
   simulate_partition(GetParam(), sequence);
   for (const HostFamily family :
@@ -44,7 +45,7 @@ TEST_P(HostShapes, LoseNothingByPatchB) {
     const HostRun nvm = run_host(sequence, shape, HostMapKind::kPatchB);
     SCOPED_TRACE(std::string(name(family)) + ", own: " + describe(own) + "; nvm: " + describe(nvm));
     EXPECT_LT(own.ate_mm, 100.0) << "the host-shaped odometry itself has failed";
-    expect_no_loss(own, nvm);
+    expect_gain(own, nvm);
   }
 }
 
