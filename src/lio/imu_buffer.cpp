@@ -4,15 +4,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 namespace nvm::lio {
 
 namespace {
 
-using Samples = std::deque<ImuSample>;
+/// Consecutive readings, oldest first.
+struct Samples {
+  using Iterator = std::deque<ImuSample>::const_iterator;
+  Iterator first, last;
 
-Samples::const_iterator first_not_before(const Samples& samples, double time) {
+  Iterator begin() const { return first; }
+  Iterator end() const { return last; }
+};
+
+Samples::Iterator first_not_before(const Samples& samples, double time) {
   return std::lower_bound(samples.begin(), samples.end(), time, [](const ImuSample& s, double t) {
     return s.time < t;
   });
@@ -28,7 +36,7 @@ std::optional<ImuSample> held(const ImuSample& nearest, double time, double max_
 std::optional<ImuSample> sample_at(const Samples& samples, double time, double max_gap) {
   const auto next = first_not_before(samples, time);
   if (next == samples.end()) {
-    return held(samples.back(), time, max_gap);
+    return held(*std::prev(samples.end()), time, max_gap);
   }
   if (next->time == time) {
     return *next;
@@ -49,20 +57,20 @@ bool is_implausible(const ImuSample& sample) {
   return sample.gyro.norm() > kMax || sample.accel.norm() > kMax;
 }
 
-/// Whether `middle` jumps away from both its neighbours while they agree: one bad reading, no jolt.
-bool is_spike(const ImuSample& before, const ImuSample& middle, const ImuSample& after) {
-  constexpr double kMaxDuration = 0.1;    // [s]
+/// Whether `reading` is off both `a` and `b`, two neighbours that agree, in one of its parts.
+bool jumps(const ImuSample& reading, const ImuSample& a, const ImuSample& b) {
   constexpr double kMinGyroJump = 10.0;   // [rad/s]
   constexpr double kMinAccelJump = 30.0;  // [m/s^2]
   constexpr double kFactor = 8.0;
-  const auto jumps = [](const auto& a, const auto& b, const auto& c, double min_jump) {
-    const double jump = std::min((b - a).norm(), (b - c).norm());
-    return jump > std::max(min_jump, kFactor * (c - a).norm());
+  const auto is_off = [](const auto& x, const auto& y, const auto& z, double min_jump) {
+    const double jump = std::min((x - y).norm(), (x - z).norm());
+    return jump > std::max(min_jump, kFactor * (y - z).norm());
   };
-  return after.time - before.time <= kMaxDuration &&
-         (jumps(before.gyro, middle.gyro, after.gyro, kMinGyroJump) ||
-          jumps(before.accel, middle.accel, after.accel, kMinAccelJump));
+  return is_off(reading.gyro, a.gyro, b.gyro, kMinGyroJump) ||
+         is_off(reading.accel, a.accel, b.accel, kMinAccelJump);
 }
+
+constexpr double kMaxDuration = 0.1;  // over which neighbours tell a spike [s]
 
 }  // namespace
 
@@ -84,7 +92,7 @@ void ImuBuffer::add(const ImuSample& sample) {
     ++stats_.late;
     return;
   }
-  const auto place = first_not_before(samples_, sample.time);
+  const auto place = first_not_before({samples_.begin(), samples_.end()}, sample.time);
   if (place != samples_.end() && place->time == sample.time) {
     ++stats_.repeated;
     return;
@@ -99,9 +107,9 @@ void ImuBuffer::add(const ImuSample& sample) {
 
 void ImuBuffer::append(const ImuSample& sample) {
   const std::size_t size = samples_.size();
-  if (size >= 2 && samples_[size - 1].time > used_until_ &&
-      is_spike(samples_[size - 2], samples_[size - 1], sample)) {
-    samples_.pop_back();
+  const bool has_neighbors = size >= 2 && sample.time - samples_[size - 2].time <= kMaxDuration;
+  if (has_neighbors && jumps(samples_[size - 1], samples_[size - 2], sample)) {
+    samples_.pop_back();  // one bad reading, no jolt
     ++stats_.implausible;
     --stats_.accepted;
   }
@@ -109,6 +117,19 @@ void ImuBuffer::append(const ImuSample& sample) {
     note_interval(sample.time - samples_.back().time);
   }
   samples_.push_back(sample);
+}
+
+// A jolt begins like a spike: which it is, only the next reading tells. Until then the one before
+// holds.
+bool ImuBuffer::is_last_doubtful() const {
+  const std::size_t size = samples_.size();
+  if (size < 2) {
+    return false;
+  }
+  const ImuSample& before = samples_[size - 2];
+  const ImuSample& earlier = size >= 3 ? samples_[size - 3] : before;
+  return samples_.back().time - earlier.time <= kMaxDuration &&
+         jumps(samples_.back(), earlier, before);
 }
 
 void ImuBuffer::note_interval(double interval) {
@@ -135,22 +156,24 @@ void ImuBuffer::between(
   if (samples_.empty() || !(begin < end)) {
     return;
   }
-  if (const auto border = sample_at(samples_, begin, max_gap)) {
+  const Samples samples = {samples_.begin(), samples_.end() - (is_last_doubtful() ? 1 : 0)};
+  if (const auto border = sample_at(samples, begin, max_gap)) {
     out.push_back(*border);
   }
-  for (auto it = first_not_before(samples_, begin); it != samples_.end() && it->time < end; ++it) {
+  for (auto it = first_not_before(samples, begin); it != samples.end() && it->time < end; ++it) {
     if (it->time > begin) {
       out.push_back(*it);
     }
   }
-  if (const auto border = sample_at(samples_, end, max_gap)) {
+  if (const auto border = sample_at(samples, end, max_gap)) {
     out.push_back(*border);
   }
 }
 
 void ImuBuffer::use_until(double time) {
+  constexpr std::size_t kKept = 3;  // at or before `time`: they tell whether the last is a spike
   used_until_ = std::max(used_until_, time);
-  while (samples_.size() > 1 && samples_[1].time <= time) {
+  while (samples_.size() > kKept && samples_[kKept].time <= time) {
     samples_.pop_front();
   }
 }

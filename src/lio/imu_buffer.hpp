@@ -29,10 +29,11 @@ class ImuBuffer {
   /// The readings that describe the motion from `begin` to `end` [s]: those in between, and one at
   /// each border, interpolated between its two neighbours. A border without a neighbour on one side
   /// repeats the nearest reading when that is at most `max_gap` [s] away, and is left out
-  /// otherwise. Replaces `out`, ascending by time.
+  /// otherwise. The last reading of all is left out while it may be a spike. Replaces `out`,
+  /// ascending by time.
   void between(double begin, double end, double max_gap, std::vector<ImuSample>& out) const;
 
-  /// Forgets what only times before `time` [s] need, and refuses older readings from now on.
+  /// Forgets all but a few readings before `time` [s], and refuses such from now on.
   void use_until(double time);
 
   /// True when a reading at or after `time` [s] has arrived.
@@ -45,6 +46,7 @@ class ImuBuffer {
 
  private:
   void append(const ImuSample& sample);
+  bool is_last_doubtful() const;
   void note_interval(double interval);
 
   std::deque<ImuSample> samples_;

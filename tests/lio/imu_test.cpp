@@ -95,6 +95,24 @@ TEST(ImuBuffer, LeavesOutSpikesAndWhatNoImuMeasures) {
   }
 }
 
+TEST(ImuBuffer, HoldsBackALastReadingThatMayBeASpike) {
+  for (const bool is_jolt : {false, true}) {
+    ImuBuffer buffer;
+    std::vector<ImuSample> found;
+    for (int i = 0; i <= 10; ++i) {
+      buffer.add(sample(0.005 * i, i == 10 ? 60.0 : 0.1));
+    }
+    buffer.between(0.0, 0.052, 0.05, found);
+    EXPECT_EQ(found.back().time, 0.052);
+    EXPECT_EQ(found.back().gyro.x(), 0.1);  // as the reading before
+    buffer.use_until(0.052);
+    buffer.add(sample(0.055, is_jolt ? 60.0 : 0.1));
+    buffer.between(0.052, 0.055, 0.05, found);
+    EXPECT_NEAR(found.front().gyro.x(), is_jolt ? 60.0 : 0.1, 1e-12);
+    EXPECT_EQ(buffer.stats().implausible, is_jolt ? 0U : 1U);
+  }
+}
+
 TEST(ImuBuffer, KeepsAJoltThatLasts) {
   ImuBuffer buffer;
   for (int i = 0; i < 20; ++i) {
