@@ -64,7 +64,8 @@ InertialPipeline::InertialPipeline(
       search_(std::make_shared<StartSearch>(alone.search, executor)),
       map_(std::move(map)),
       alone_(alone, map_, search_, executor),
-      matcher_(std::move(matcher)) {}
+      matcher_(std::move(matcher)),
+      min_first_keypoints_(alone.align.min_residuals) {}
 
 void InertialPipeline::add_imu(const ImuSample& sample) {
   ImuSample shifted = sample;
@@ -196,12 +197,12 @@ void InertialPipeline::match(FrameResult& result) {
   result.points = prepared_.scan.size();
   result.keypoints = prepared_.keypoints.size();
   if (map_->size() == 0) {
-    result.status = FrameStatus::kTracking;
+    begin_map(result);
     return;
   }
   const ErrorStateFilter predicted = *filter_;
-  const bool is_sure = doubt_since_believed() < kMaxDoubt;
-  if (!is_sure) {
+  const bool was_sure = is_sure();
+  if (!was_sure) {
     find_again();
   }
   const MatchResult match = matcher_->match(*map_, prepared_, *filter_);
@@ -211,7 +212,7 @@ void InertialPipeline::match(FrameResult& result) {
   result.unobserved = match.unobserved;
   result.degenerate_directions = match.unobserved.count();
   result.iterations = match.iterations;
-  if (match.accepted && (is_sure ? agrees_with_map(match) : fits_well(match, result.keypoints))) {
+  if (match.accepted && (was_sure ? agrees_with_map(match) : fits_well(match, result.keypoints))) {
     believe();
     result.status = FrameStatus::kTracking;
     if (!placed_time_ || result.unobserved.translations.empty()) {
@@ -229,10 +230,20 @@ void InertialPipeline::match(FrameResult& result) {
   result.message = kTooLittleFits;
 }
 
+// Every later pose will be one in this scan's surfaces.
+void InertialPipeline::begin_map(FrameResult& result) {
+  if (result.keypoints < min_first_keypoints_) {
+    result.message = kTooFewSurfaces;
+    return;
+  }
+  believe();
+  result.status = FrameStatus::kTracking;
+}
+
 // What corridors leave open grows with the way, and no search in the map would close it.
-double InertialPipeline::doubt_since_believed() const {
+bool InertialPipeline::is_sure() const {
   const double now = pose_doubt(*filter_).translation_deviation;
-  return std::sqrt(std::max(0.0, now * now - believed_doubt_ * believed_doubt_));
+  return now * now - believed_doubt_ * believed_doubt_ < kMaxDoubt * kMaxDoubt;
 }
 
 bool InertialPipeline::is_adrift(const UnobservedDirections& unobserved) const {

@@ -96,8 +96,9 @@ class InertialPipeline final : public Pipeline {
   void believe();
   void prepare(const Scan& scan, FrameResult& result);
   void match(FrameResult& result);
+  void begin_map(FrameResult& result);
   void find_again();
-  double doubt_since_believed() const;
+  bool is_sure() const;
   bool is_adrift(const UnobservedDirections& unobserved) const;
   bool agrees_with_map(const MatchResult& match) const;
   void insert(FrameResult& result);
@@ -118,7 +119,8 @@ class InertialPipeline final : public Pipeline {
   double slid_time_ = -1e300;  ///< of the last scan alone that left directions open [s]
   double join_after_ = 1.0;    ///< so long must it tell the motion of the scans [s]
   std::unique_ptr<ScanMatcher> matcher_;
-  std::optional<Pose> start_;  ///< T_map_body in a map that others have begun
+  std::size_t min_first_keypoints_;  ///< of a scan that begins a map
+  std::optional<Pose> start_;        ///< T_map_body in a map that others have begun
   std::optional<ErrorStateFilter> filter_;
   double read_until_ = -1e300;                           ///< time of the last reading taken [s]
   ImuNoise imu_noise_;                                   ///< that the filter works with

@@ -113,6 +113,11 @@ void InertialPipeline::judge_imu(const FrameResult& result) {
     verdict = believed_ == kFirst || is_due ? judge_.watch() : verdict;
   }
   is_imu_usable_ = verdict != ImuVerdict::kUnusable;
+  if (result.status == FrameStatus::kInitializing && !is_sure()) {
+    // Without a map the IMU has lost its velocity, and only the attitude holds.
+    go_alone(ConstantVelocity({result.time, result.T_map_body}));
+    return;
+  }
   if (result.status == FrameStatus::kLost || !is_imu_usable_ || verdict == ImuVerdict::kMended) {
     join_after_ = kRejoinAfter;
     go_alone(ConstantVelocity(last_believed_));

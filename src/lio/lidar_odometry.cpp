@@ -174,7 +174,7 @@ void LidarOdometry::match(const Normals& normals, FrameResult& result) {
     observed_time_ = result.time;
     began_map_ = true;
     result.status = enough ? FrameStatus::kTracking : FrameStatus::kInitializing;
-    result.message = enough ? "" : "the scan shows too few surfaces to begin with";
+    result.message = enough ? "" : kTooFewSurfaces;
     return;
   }
   AlignResult aligned = align(normals);

@@ -38,6 +38,9 @@ inline constexpr const char* kTooLittleFits =
     "too little of the scan fits the map: try larger map.voxel_size in wide surroundings, check "
     "input.T_imu_lidar and the times of points and IMU";
 
+/// FrameResult::message of a scan that cannot begin a map.
+inline constexpr const char* kTooFewSurfaces = "the scan shows too few surfaces to begin with";
+
 /// CPU time of the whole process that each stage of a frame took [ms].
 struct StageTimes {
   double deskew = 0.0;  ///< IMU propagation included
