@@ -111,6 +111,11 @@ void bind_imu(Schema& schema, InertialOptions& inertial) {
       kPositive,
       "The random walk of the gyroscope's bias [rad/s^2/sqrt(Hz)]");
   schema.add(
+      "gyro_scale_noise",
+      noise.gyro_scale,
+      kNotNegative,
+      "The noise density of the gyroscope for each rad/s that it turns [1/sqrt(Hz)]");
+  schema.add(
       "accel_bias_walk",
       noise.accel_bias,
       kPositive,

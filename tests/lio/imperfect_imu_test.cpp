@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <stdexcept>
 
+#include "config/schema.hpp"
 #include "lio/pipeline_options.hpp"
 #include "lio/room_recording.hpp"
 
@@ -108,6 +110,15 @@ TEST(ImperfectImu, WhoseGyroscopeIsOffInScaleKeepsThePose) {
     recording.motion.turning = 2.0;
     expect_tracks_from(1.3, recording, run(recording));
   }
+}
+
+TEST(ImperfectImu, IsDoubtedInTurnsAsMuchAsIsSet) {
+  PipelineOptions options;
+  config::Schema schema;
+  bind(schema, options);
+  schema.set("imu.gyro_scale_noise=0.02");
+  EXPECT_EQ(options.inertial.imu_noise.gyro_scale, 0.02);
+  EXPECT_THROW(schema.set("imu.gyro_scale_noise=-1"), std::invalid_argument);
 }
 
 TEST(ImperfectImu, WithoutAccelerationsIsLeftOut) {
