@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <vector>
@@ -11,7 +12,7 @@
 #include "adapters/common/host_options.hpp"
 #include "adapters/common/normal_finder.hpp"
 #include "adapters/common/point_fields.hpp"
-#include "adapters/common/sightings.hpp"
+#include "adapters/common/surfaces.hpp"
 #include "adapters/common/wide_search.hpp"
 #include "nvm/core/point_access.hpp"
 #include "nvm/map/voxel_map.hpp"
@@ -26,17 +27,18 @@ namespace nvm::adapters {
 class HostMap {
  public:
   HostMap() = default;
-  explicit HostMap(const HostOptions& options) : options_(options), normals_(options.normals) {}
+  explicit HostMap(const HostOptions& options) { configure(options); }
 
   /// What the map has been, or will be, made with.
   const HostOptions& options() const noexcept { return options_; }
   /// Drops the map; the next insertion makes one with these options. Throws std::invalid_argument
   /// when they are out of range.
   void configure(const HostOptions& options) {
-    options.map.validate();
+    options.validate();
     options_ = options;
     normals_.set_policy(options.normals);
     map_.reset();
+    noise_ = {};
   }
   /// Where the sensor is [m], map frame, from now on. Not finite, as at the start: unknown.
   void set_view_point(const Eigen::Vector3d& p_map_sensor) noexcept {
@@ -84,21 +86,21 @@ class HostMap {
       const Eigen::Vector3f& normal,
       const NearestSearch& search,
       Neighbor* out) const noexcept {
-    const bool is_sighted = normals_.takes(normal);
-    const bool gated = is_sighted || is_unit_normal(normal);
+    const bool gated = normals_.takes(normal) || is_unit_normal(normal);
     if (!map_ || (!gated && refuses_queries_without_normal())) {
       return 0;
     }
-    const std::size_t count = nearest_within_reach(
-        *map_, to_grid(point), gated ? &normal : nullptr, {search, options_.reach}, out);
-    if (is_sighted && !are_surface(out, count, normal)) {
-      return 0;
-    }
+    const std::size_t count =
+        gated ? nearest_on_surface(to_grid(point), normal, search, out)
+              : nearest_within_reach(*map_, to_grid(point), nullptr, reaching(search), out);
     if (options_.grid_offset != 0.0) {
       std::for_each(out, out + count, [this](Neighbor& n) { n.position = from_grid(n.position); });
     }
     return count;
   }
+
+  /// Neighbours that deviate more from their plane [m], one standard deviation, are no surface.
+  double max_surface_deviation() const noexcept { return noise_.max_deviation(); }
 
   /// The map, in its grid's frame (shifted by grid_offset), or null before the first insertion.
   VoxelMap* map() noexcept { return map_.get(); }
@@ -133,6 +135,38 @@ class HostMap {
            options_.normals.query != NormalSource::kNone;
   }
 
+  ReachingSearch reaching(const NearestSearch& search) const noexcept {
+    return {search, options_.reach};
+  }
+
+  std::size_t nearest_on_surface(
+      const Eigen::Vector3d& point,
+      const Eigen::Vector3f& normal,
+      const NearestSearch& search,
+      Neighbor* out) const noexcept {
+    if (options_.surface_neighbors == 0) {
+      const std::size_t count = nearest_within_reach(*map_, point, &normal, reaching(search), out);
+      return !is_sighting(normal) || surface_of(out, count, normal, max_surface_deviation()) ? count
+                                                                                             : 0;
+    }
+    std::array<Neighbor, kMaxNeighbors> found;
+    NearestSearch wider = search;
+    wider.count = std::min(std::max(search.count, options_.surface_neighbors), kMaxNeighbors);
+    const std::size_t all =
+        nearest_within_reach(*map_, point, &normal, reaching(wider), found.data());
+    const std::optional<Plane> plane =
+        surface_of(found.data(), all, normal, max_surface_deviation());
+    if (!plane) {
+      return 0;
+    }
+    const std::size_t count = std::min(search.count, all);
+    std::transform(found.data(), found.data() + count, out, [&plane](Neighbor neighbor) {
+      neighbor.position -= plane->normal.dot(neighbor.position - plane->centroid) * plane->normal;
+      return neighbor;
+    });
+    return count;
+  }
+
   VoxelMap& make_map() {
     if (!map_) {
       map_.reset(
@@ -148,7 +182,7 @@ class HostMap {
   }
 
   template <class Points, class Normals>
-  std::vector<Eigen::Vector3f> settle(const Points& points, const Normals& normals) const {
+  std::vector<Eigen::Vector3f> settle(const Points& points, const Normals& normals) {
     std::vector<Eigen::Vector3f> known(normals.size());
     VoxelMap::QueryContext context;
     for (std::size_t i = 0; i < std::min<std::size_t>(points.size(), known.size()); ++i) {
@@ -157,9 +191,20 @@ class HostMap {
         known[i] = settled_normal(*map_, to_grid(nvm::position(points[i])), known[i], context);
       } else if (!is_unit_normal(known[i])) {
         known[i].setZero();
+      } else if (options_.surface_neighbors > 0 && i % kEveryLearned == 0) {
+        learn_noise(to_grid(nvm::position(points[i])), known[i], context);
       }
     }
     return known;
+  }
+
+  void learn_noise(
+      const Eigen::Vector3d& point,
+      const Eigen::Vector3f& normal,
+      VoxelMap::QueryContext& context) {
+    std::array<Neighbor, kMaxNeighbors> found;
+    const NearestSearch search{options_.surface_neighbors, kFar, Gate::kSurfaces};
+    noise_.show(found.data(), map_->nearest(point, normal, search, found.data(), context));
   }
 
   template <class Points>
@@ -190,8 +235,12 @@ class HostMap {
     return stats;
   }
 
+  static constexpr double kFar = 1e6;              // [m]; beyond the 27 voxels
+  static constexpr std::size_t kEveryLearned = 8;  // of the inserted points: enough, and cheap
+
   HostOptions options_;
   NormalFinder normals_;
+  SurfaceNoise noise_;
   std::unique_ptr<VoxelMap> map_;
 };
 

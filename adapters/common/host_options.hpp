@@ -4,11 +4,15 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <sstream>
 #include <string>
 
+#include "nvm/core/finite.hpp"
+#include "nvm/core/require.hpp"
 #include "nvm/map/map_options.hpp"
+#include "nvm/map/neighbor.hpp"
 
 namespace nvm::adapters {
 
@@ -23,8 +27,8 @@ enum class NormalSource {
 enum class MissingNormal {
   kDrop,           ///< it is not inserted, and as a query finds nothing (the paper)
   kUngated,        ///< as with NormalSource::kNone
-  kViewDirection,  ///< its sighting (sightings.hpp), else the direction to the sensor; without a
-                   ///< view point as kUngated
+  kViewDirection,  ///< its sighting (nvm/map/sighting.hpp), else the direction to the sensor;
+                   ///< without a view point as kUngated
 };
 
 /// How an adapter uses normals.
@@ -43,10 +47,31 @@ struct HostOptions {
   /// [m]; 0: they do not. Beyond the 27 voxels only the normals of points are compared, not those
   /// of surfaces.
   double reach = 0.0;
+  /// For hosts that fit planes to few neighbours: queries with a normal look at so many, return
+  /// those that were asked for moved onto the plane of all, and nothing when these are no surface
+  /// (3 to kMaxNeighbors); 0: queries return points as they are.
+  std::size_t surface_neighbors = 0;
   /// Moves the grid of voxels against the map frame [m]: half a voxel for hosts that round where
   /// nvm takes the floor.
   double grid_offset = 0.0;
+
+  /// Throws std::invalid_argument with the name, the value and the allowed range of the first bad
+  /// member.
+  void validate() const {
+    map.validate();
+    require(reach >= 0.0, "reach", reach, "0 or more [m]");
+    require(
+        surface_neighbors == 0 || (surface_neighbors >= 3 && surface_neighbors <= kMaxNeighbors),
+        "surface_neighbors",
+        surface_neighbors,
+        "0 or 3 to 64");
+    require(nvm::detail::is_finite(grid_offset), "grid_offset", grid_offset, "finite [m]");
+  }
 };
+
+/// HostOptions::surface_neighbors for hosts that ask for 5: 20 cost more and give no more, and with
+/// 5 a surface is hard to tell from an edge (docs/adapters/ikd_tree.md).
+inline constexpr std::size_t kSurfaceNeighbors = 12;
 
 /// A map without sides that keeps what it is given, as hosts' own maps do: for comparisons that
 /// isolate what normals change. Surfaces hold the most points that nvm allows, 120.

@@ -131,7 +131,7 @@ class CtLioMap {
     };
     const NearestSearch search{wanted, (ring + 1) * std::sqrt(3.0) * size, Gate::kPoints};
     const std::size_t count = nearest_wide(*map_.map(), point, search, accepts, out);
-    return is_sighted && !are_surface(out, count, normal) ? 0 : count;
+    return is_sighted && !surface_of(out, count, normal, map_.max_surface_deviation()) ? 0 : count;
   }
 
   HostMap map_;

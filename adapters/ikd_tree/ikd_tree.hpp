@@ -53,7 +53,10 @@ class IkdTree {
   /// For the host's use; nothing here reads it.
   PointVector PCL_Storage;
 
-  IkdTree() { options_.map.voxel_size = kFromFilter; }
+  IkdTree() {
+    options_.map.voxel_size = kFromFilter;
+    options_.surface_neighbors = kSurfaceNeighbors;
+  }
   IkdTree(const IkdTree&) = delete;  // Root_Node points into the object
   IkdTree& operator=(const IkdTree&) = delete;
 
@@ -97,7 +100,7 @@ class IkdTree {
   }
 
   /// The up to `k` (at most 64) nearest points, nearest first, and the squares of their distances
-  /// [m^2]; `max_distance` [m] is inclusive.
+  /// as stored [m^2]; `max_distance` [m] is inclusive. See HostOptions::surface_neighbors.
   void Nearest_Search(
       const Point& point,
       int k,

@@ -61,6 +61,7 @@ class IVox {
     static nvm::adapters::HostOptions defaults() {
       nvm::adapters::HostOptions options;
       options.map.voxel_size = kFromResolution;
+      options.surface_neighbors = nvm::adapters::kSurfaceNeighbors;
       return options;
     }
   };
@@ -83,7 +84,7 @@ class IVox {
   void AddPoints(const PointVector& points) { map_.insert(points); }
 
   /// The up to `max_num` (at most 64) nearest points within `max_range` [m], nearest first. False,
-  /// and `closest` empty, when there is none.
+  /// and `closest` empty, when there is none. See HostOptions::surface_neighbors.
   bool GetClosestPoint(
       const PointType& point,
       PointVector& closest,

@@ -50,7 +50,7 @@ struct World {
       std::fill(cloud.normals.begin(), cloud.normals.end(), Eigen::Vector3f::Zero());
     }
     points = test::host_points_with_normals(cloud);
-    tree.options() = options();
+    tree.options() = plane_options();
     kiss.configure(options());
   }
   static adapters::HostOptions options() {
@@ -60,10 +60,16 @@ struct World {
     options.normals.missing = adapters::MissingNormal::kUngated;
     return options;
   }
+  /// For hosts that fit planes to 5 neighbours.
+  static adapters::HostOptions plane_options() {
+    adapters::HostOptions of_planes = options();
+    of_planes.surface_neighbors = adapters::kSurfaceNeighbors;
+    return of_planes;
+  }
   static IVox::Options ivox_options() {
     IVox::Options ivox;
     ivox.resolution_ = static_cast<float>(kVoxel);
-    ivox.nvm = options();
+    ivox.nvm = plane_options();
     return ivox;
   }
   void fill() {
