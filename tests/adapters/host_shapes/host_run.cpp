@@ -47,13 +47,11 @@ void evaluate(
 
 }  // namespace
 
-HostRun run_host(const std::string& folder, const HostShape& shape, HostMapKind kind) {
+HostOutput drive_host(const std::string& folder, const HostShape& shape, HostMapKind kind) {
   const auto sequence = io::open_nvm_sequence(folder);
   HostOdometry host(shape, kind, sequence->info().T_imu_lidar);
   constexpr double kAhead = 0.01;  // the reading after the scan's end [s]
-  HostRun run;
-  Trajectory trajectory;
-  eval::OrientedCloud cloud;
+  HostOutput output;
   std::size_t scans = 0;
   while (const std::optional<lio::Scan> scan = sequence->next_scan()) {
     for (const lio::ImuSample& sample : sequence->imu_until(scan->t_end + kAhead)) {
@@ -61,16 +59,24 @@ HostRun run_host(const std::string& folder, const HostShape& shape, HostMapKind 
     }
     const double begin = cpu_ms();
     const std::optional<Pose> pose = host.process(*scan);
-    run.cpu_ms += cpu_ms() - begin;
+    output.cpu_ms += cpu_ms() - begin;
     ++scans;
     if (pose) {
-      trajectory.push_back({scan->t_end, *pose});
-      add_scan(host, cloud);
+      output.trajectory.push_back({scan->t_end, *pose});
+      add_scan(host, output.cloud);
     }
   }
-  run.cpu_ms /= static_cast<double>(scans);
-  run.map_points = host.map().size();
-  evaluate(trajectory, std::move(cloud), folder, run);
+  output.cpu_ms /= static_cast<double>(scans);
+  output.map_points = host.map().size();
+  return output;
+}
+
+HostRun run_host(const std::string& folder, const HostShape& shape, HostMapKind kind) {
+  HostOutput output = drive_host(folder, shape, kind);
+  HostRun run;
+  run.cpu_ms = output.cpu_ms;
+  run.map_points = output.map_points;
+  evaluate(output.trajectory, std::move(output.cloud), folder, run);
   return run;
 }
 
