@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The nvm authors
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
 
 #include <algorithm>
 #include <memory>
@@ -104,6 +105,12 @@ class Odometry {
     return new SharedMap(MapArchive::read(MapArchive::write(*map)));  // Python owns it
   }
 
+  std::vector<std::string> findings() const {
+    const nb::gil_scoped_release no_gil;
+    const std::lock_guard lock(mutex_);
+    return pipeline_->findings();
+  }
+
   nb::tuple scan() const {
     std::vector<Eigen::Vector3f> points, normals;
     {
@@ -145,6 +152,14 @@ nb::object vector_of(const Eigen::Vector3d& v) {
   return nb::cast(to_array(std::vector<double>{v.x(), v.y(), v.z()}));
 }
 
+nb::object directions_of(const std::vector<Eigen::Vector3d>& directions) {
+  std::vector<double> rows;
+  for (const Eigen::Vector3d& d : directions) {
+    rows.insert(rows.end(), {d.x(), d.y(), d.z()});
+  }
+  return nb::cast(to_array(std::move(rows), 3));
+}
+
 nb::object matrix_of(const lio::Covariance6& covariance) {
   return nb::cast(to_array(std::vector<double>(covariance.data(), covariance.data() + 36), 6));
 }
@@ -165,8 +180,15 @@ void bind_frame(nb::module_& module) {
       .def_ro("points", &Frame::points)
       .def_ro("keypoints", &Frame::keypoints)
       .def_ro("residuals", &Frame::residuals)
+      .def_ro("inlier_share", &Frame::inlier_share)
       .def_ro("residual_rms", &Frame::residual_rms)
       .def_ro("degenerate_directions", &Frame::degenerate_directions)
+      .def_prop_ro(
+          "unobserved_translations",
+          [](const Frame& self) { return directions_of(self.unobserved.translations); })
+      .def_prop_ro(
+          "unobserved_rotations",
+          [](const Frame& self) { return directions_of(self.unobserved.rotations); })
       .def_ro("iterations", &Frame::iterations)
       .def_ro("inserted", &Frame::inserted)
       .def_prop_ro("times_ms", &times_of)
@@ -205,6 +227,7 @@ void bind_odometry(nb::module_& module) {
           "begin"_a = nb::none(),
           "end"_a = nb::none(),
           kRegisterDoc)
+      .def("findings", &Odometry::findings, kFindingsDoc)
       .def_prop_ro("scan", &Odometry::scan, kScanDoc)
       .def_prop_ro(
           "map", &Odometry::map, nb::rv_policy::take_ownership, "VoxelMap: a copy of the map.");

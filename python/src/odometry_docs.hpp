@@ -57,6 +57,14 @@ Returns
 -------
 FrameResult)";
 
+inline constexpr char kFindingsDoc[] = R"(What is wrong, or was mended, in the data so far.
+
+Returns
+-------
+list of str
+    One line each, as ``nvm run`` prints them at its end: what was seen, what it usually means, what
+    mends it.)";
+
 inline constexpr char kScanDoc[] =
     R"(tuple: points and normals, (M, 3) float32, of the scan that was registered last, deskewed: in the
 LiDAR's frame at the scan's end. Only of use when that gave a pose.)";
@@ -66,8 +74,9 @@ inline constexpr char kFrameDoc[] = R"(What became of a scan.
 Attributes
 ----------
 status : str
-    'initializing' (no pose yet), 'tracking', 'weak' (too little fits: the pose is a prediction),
-    'lost' (do not trust the pose) or 'skipped' (empty, or older than the last one).
+    'initializing' (no pose yet), 'tracking', 'degenerate' (the same, but nothing has told the
+    unobserved directions for too long), 'weak' (too little fits: the pose is a prediction), 'lost'
+    (do not trust the pose) or 'skipped' (empty, or older than the last one).
 time : float
     Of the pose: the scan's end [s].
 T_map_body, T_map_lidar : (4, 4) float64
@@ -77,10 +86,14 @@ velocity, angular_rate : (3,) float64
 pose_covariance, twist_covariance : (6, 6) float64
     Of position [m^2] and of a rotation about the map's axes [rad^2]; of velocity and angular rate.
 points, keypoints, residuals, iterations : int
+inlier_share : float
+    Of the keypoints: those that fit the map, 0 to 1.
 residual_rms : float
     [m].
 degenerate_directions : int
     Of the pose's six, that the scan does not tell.
+unobserved_translations, unobserved_rotations : (N, 3) float64
+    These directions: unit vectors in the map's frame, unit axes in the body's.
 inserted : InsertStats
 times_ms : dict
     CPU time of each stage [ms].

@@ -40,6 +40,30 @@ def test_scans_alone_give_the_walk(rng):
     assert len(odometry.map) > 1000 and isinstance(odometry.map, nvm.VoxelMap)
 
 
+def test_what_a_floor_alone_does_not_tell_is_said(rng):
+    odometry = nvm.Odometry()
+    for i in range(5):
+        floor = np.column_stack([rng.uniform(-5, 5, (4000, 2)), rng.normal(-1.0, 0.003, 4000)])
+        frame = odometry.register(floor, i * PERIOD)
+    assert frame.inlier_share > 0.9
+    assert frame.degenerate_directions == 3
+    assert frame.unobserved_translations.shape == (2, 3) and frame.unobserved_rotations.shape == (1, 3)
+    np.testing.assert_allclose(frame.unobserved_translations[:, 2], 0.0, atol=0.05)
+    np.testing.assert_allclose(np.abs(frame.unobserved_rotations[0]), [0, 0, 1], atol=0.05)
+
+
+def test_accelerations_in_g_are_a_finding(rng):
+    odometry = nvm.Odometry()
+    assert odometry.findings() == []
+    times, gyro, accel = still_imu(-2.0, 4.0)
+    gyro += rng.normal(0.0, 0.002, gyro.shape)
+    accel += rng.normal(0.0, 0.02, accel.shape)
+    odometry.add_imu(times, gyro, accel / 9.80665)  # in g
+    for i in range(30):
+        odometry.register(box_room(rng, 4000, noise=0.003), i * PERIOD)
+    assert any(" g" in finding for finding in odometry.findings()), odometry.findings()
+
+
 def test_a_sweep_is_deskewed(rng):
     """Points at their own times, in any order, dated absolutely or from the begin."""
     ends = []
