@@ -43,6 +43,7 @@ def describe_store(store, is_to_check: bool) -> None:
 PROGRAM_COMMANDS = {
     "run": "estimate the trajectory and the two-sided map of a recording",
     "map": "build a two-sided map from scans at known poses",
+    "merge": "put the maps of several runs of one place together",
     "walls": "list the walls of a map",
     "export": "write a saved map as points with normals and sides",
     "simulate": "simulate a LiDAR and an IMU in a scene",

@@ -57,11 +57,14 @@ def read_trajectory(path) -> Trajectory:
 
 
 def read_cloud(path) -> Cloud:
-    """Reads a map.nvm, where map_origin.txt beside it says that it lies."""
+    """Reads a saved map, where the file with its origin beside it says that it lies."""
     path = pathlib.Path(path)
     voxel_map = load(path)
-    origin_file = path.parent / "map_origin.txt"
-    origin = np.loadtxt(origin_file) if origin_file.is_file() else np.zeros(3)
+    origin = np.zeros(3)
+    for name in (f"{path.stem}_origin.txt", "map_origin.txt"):  # or a map.nvm was renamed
+        if (path.parent / name).is_file():
+            origin = np.loadtxt(path.parent / name)
+            break
     return Cloud(voxel_map.points + origin, voxel_map.normals, voxel_map.sides)
 
 

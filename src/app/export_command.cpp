@@ -8,10 +8,10 @@
 
 #include "app/doing.hpp"
 #include "app/interruption.hpp"
-#include "app/map_origin.hpp"
 #include "app/results.hpp"
 #include "io/map_cloud.hpp"
 #include "io/map_files.hpp"
+#include "io/map_origin.hpp"
 #include "nvm/map/serialization.hpp"
 #include "nvm/map/sighting.hpp"
 
@@ -26,7 +26,7 @@ struct ExportArguments {
 
 void write_cloud(const ExportArguments& arguments) {
   doing("making way for " + arguments.cloud, [&] { remove_leftovers(arguments.cloud); });
-  const Eigen::Vector3d origin = read_origin(arguments.map);
+  const Eigen::Vector3d origin = io::read_origin(arguments.map);
   const io::MapCloud cloud = doing("exporting " + arguments.map, [&] {
     return io::map_cloud_of(without_sightings(load_map(arguments.map).points()), origin);
   });

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "app/doing.hpp"
-#include "app/map_origin.hpp"
+#include "io/map_origin.hpp"
 #include "nvm/map/serialization.hpp"
 #include "nvm/map/sighting.hpp"
 
@@ -22,7 +22,7 @@ constexpr double kBytesPerMegabyte = 1e6;
 
 void print_info(const std::string& path) {
   const VoxelMap map = doing("loading " + path, [&] { return load_map(path); });
-  const Eigen::Vector3d origin = read_origin(path);
+  const Eigen::Vector3d origin = io::read_origin(path);
   const MapOptions& options = map.options();
   const MapStats stats = map.stats();
   Eigen::AlignedBox3d bounds;

@@ -16,6 +16,7 @@
 #include "app/info_command.hpp"
 #include "app/interruption.hpp"
 #include "app/map_command.hpp"
+#include "app/merge_command.hpp"
 #include "app/run_command.hpp"
 #include "app/say.hpp"
 #include "app/simulate_command.hpp"
@@ -106,6 +107,7 @@ int run(int argc, char** argv) {
   nvm::app::add_simulate_command(app);
   nvm::app::add_evaluate_command(app);
   nvm::app::add_walls_command(app);
+  nvm::app::add_merge_command(app);
   return parse(app, argc, argv);
 }
 

@@ -16,12 +16,12 @@
 #include "app/doing.hpp"
 #include "app/failure.hpp"
 #include "app/map_builder.hpp"
-#include "app/map_origin.hpp"
 #include "app/results.hpp"
 #include "app/run_options.hpp"
 #include "app/say.hpp"
 #include "eval/association.hpp"
 #include "io/file.hpp"
+#include "io/map_origin.hpp"
 #include "io/sequence_reader.hpp"
 #include "io/trajectory_io.hpp"
 
@@ -125,9 +125,9 @@ void build_map(
     const Trajectory& poses,
     io::SequenceReader& reader,
     const RunOptions& options) {
-  const Eigen::Vector3d origin = choose_origin(poses);
+  const Eigen::Vector3d origin = io::choose_origin(poses);
   MapBuilder builder = doing(making_map(options.pipeline.map), [&] {
-    return MapBuilder(options.pipeline, moved(poses, -origin));
+    return MapBuilder(options.pipeline, io::moved(poses, -origin));
   });
   const Interruption interruption;
   io::ResultFolder results(arguments.folder);
@@ -141,8 +141,9 @@ void build_map(
   print_notes(reader.info());
   const std::size_t map_points = builder.map().points().size();
   check_useful(map_points, ending, why_empty(arguments, builder, poses, scans));
-  io::write_tum(results.path() + "/trajectory.tum", moved(builder.placed(), origin));
-  publish(results, builder.map(), origin, ending);
+  io::write_tum(results.path() + "/trajectory.tum", io::moved(builder.placed(), origin));
+  write_map(results, builder.map(), origin, ending);
+  results.publish();
   print_origin(origin);
   fmt::print(
       "{}: {} of {} scans placed, {} map points\n",

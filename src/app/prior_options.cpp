@@ -5,16 +5,16 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include "app/doing.hpp"
-#include "app/map_origin.hpp"
+#include "app/given_pose.hpp"
 #include "app/say.hpp"
 #include "io/file.hpp"
+#include "io/map_origin.hpp"
 #include "lio/prior_pipeline.hpp"
 #include "nvm/map/serialization.hpp"
 
@@ -61,30 +61,11 @@ std::string differences(const MapOptions& prior, const MapOptions& asked) {
 
 std::optional<lio::Start> start_from(
     const std::vector<double>& numbers, const Eigen::Vector3d& origin) {
-  constexpr double kMaxLengthError = 0.01;
-  constexpr double kMostYaw = 6.2831853071795865;
   if (numbers.empty()) {
     return std::nullopt;
   }
-  lio::Start start;
-  start.is_upright = numbers.size() == 4;
-  if (start.is_upright) {
-    if (!(std::abs(numbers[3]) <= kMostYaw)) {
-      throw std::invalid_argument(fmt::format(
-          "--start: the yaw {} is not within -2 pi to 2 pi: it is in radians", numbers[3]));
-    }
-    start.T_map_body.linear() = so3_exp({0.0, 0.0, numbers[3]});
-  } else {
-    const Eigen::Quaterniond q(numbers[6], numbers[3], numbers[4], numbers[5]);
-    if (!(std::abs(q.norm() - 1.0) <= kMaxLengthError)) {
-      throw std::invalid_argument("--start: qx qy qz qw must be a unit quaternion");
-    }
-    start.T_map_body.linear() = q.normalized().toRotationMatrix();
-  }
-  start.T_map_body.translation() = Eigen::Vector3d(numbers[0], numbers[1], numbers[2]) - origin;
-  if (!start.T_map_body.matrix().allFinite()) {
-    throw std::invalid_argument("--start: its numbers must be finite");
-  }
+  lio::Start start{given_pose("--start", numbers), numbers.size() == 4};
+  start.T_map_body.translation() -= origin;
   return start;
 }
 
@@ -100,6 +81,7 @@ void add_prior_options(CLI::App& command, PriorArguments& arguments) {
           "Where the body is in the prior map when the scans begin: x,y,z [m],yaw [rad], or "
           "x,y,z,qx,qy,qz,qw, to about 1 m and 20 degrees; without it the whole map is searched")
       ->delimiter(',')
+      ->allow_extra_args(false)  // else it would take the input that follows
       ->type_name("NUMBERS");
   command.add_flag(
       "--extend", arguments.extends, "Go on mapping in a copy of the prior map, for --out");
@@ -112,11 +94,7 @@ void check(const PriorArguments& arguments, const std::string& folder) {
     }
     return;
   }
-  const std::size_t count = arguments.start.size();
-  if (count != 0 && count != 4 && count != 7) {
-    throw std::invalid_argument(fmt::format(
-        "--start must be 4 numbers x,y,z,yaw or 7 numbers x,y,z,qx,qy,qz,qw, not {}", count));
-  }
+  start_from(arguments.start, Eigen::Vector3d::Zero());  // refuses bad ones before all else
   std::error_code ignored;
   const fs::path parent = fs::absolute(arguments.map).parent_path();
   if (fs::equivalent(parent, folder, ignored)) {
@@ -126,7 +104,7 @@ void check(const PriorArguments& arguments, const std::string& folder) {
 }
 
 Eigen::Vector3d origin_of(const PriorArguments& arguments) {
-  return arguments.map.empty() ? Eigen::Vector3d::Zero() : read_origin(arguments.map);
+  return arguments.map.empty() ? Eigen::Vector3d::Zero() : io::read_origin(arguments.map);
 }
 
 std::unique_ptr<lio::Pipeline> make_prior_pipeline(

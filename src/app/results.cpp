@@ -11,11 +11,11 @@
 
 #include "app/doing.hpp"
 #include "app/failure.hpp"
-#include "app/map_origin.hpp"
 #include "app/progress_bar.hpp"
 #include "app/say.hpp"
 #include "io/file.hpp"
 #include "io/map_files.hpp"
+#include "io/map_origin.hpp"
 #include "io/pending_path.hpp"
 
 namespace nvm::app {
@@ -95,23 +95,23 @@ void attempt(
   }
 }
 
-void publish(
-    io::ResultFolder& results,
+void write_map(
+    const io::ResultFolder& results,
     const lio::LioMap& map,
     const Eigen::Vector3d& origin,
     Ending& ending) {
-  const std::string& folder = results.path();
   if (map.is_frozen()) {
-    results.publish();
     return;
   }
-  attempt({folder + "/map.ply", folder + "/map.nvm"}, ending, [&] {
+  const std::string stem = results.path() + "/map";
+  attempt({stem + ".ply", stem + ".nvm"}, ending, [&] {
     doing("writing the map", [&] {
-      io::write_map_files(map, origin, folder);
-      write_origin(folder, origin);
+      io::write_map_files(map, origin, stem);
+      if (!origin.isZero(0.0)) {
+        io::write_origin(stem + ".nvm", origin);
+      }
     });
   });
-  results.publish();
 }
 
 void check_ending(const Ending& ending, const std::string& folder) {

@@ -45,11 +45,10 @@ void attempt(
     const std::vector<std::string>& files, Ending& ending, const std::function<void()>& action);
 
 /// Writes the map, whose origin is at `origin` [m], to `results` unless it is a prior one that has
-/// not changed, and publishes them. A map that
-/// cannot be written, or could not be loaded again, is left out: that becomes the error of
-/// `ending`. Throws std::runtime_error when nothing can be published.
-void publish(
-    io::ResultFolder& results,
+/// not changed. A map that cannot be written, or could not be loaded again, is left out: that
+/// becomes the error of `ending`.
+void write_map(
+    const io::ResultFolder& results,
     const lio::LioMap& map,
     const Eigen::Vector3d& origin,
     Ending& ending);

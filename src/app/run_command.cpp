@@ -20,6 +20,7 @@
 #include "app/run_summary.hpp"
 #include "app/run_verdict.hpp"
 #include "app/say.hpp"
+#include "app/session_recorder.hpp"
 #include "io/sequence_reader.hpp"
 #include "lio/pipeline_options.hpp"
 
@@ -46,6 +47,22 @@ std::unique_ptr<lio::Pipeline> make_pipeline(
 }
 
 using ScanProcess = std::function<lio::FrameResult(const lio::Scan&)>;
+
+/// Gives `pipeline` a scan and the readings of the IMU until then, and `session` what came of it.
+ScanProcess scan_process(
+    io::SequenceReader& reader,
+    double imu_time_offset,
+    lio::Pipeline& pipeline,
+    SessionRecorder& session) {
+  return [&, imu_time_offset](const lio::Scan& scan) {
+    for (const lio::ImuSample& sample : reader.imu_until(scan.t_end - imu_time_offset)) {
+      pipeline.add_imu(sample);
+    }
+    lio::FrameResult frame = pipeline.process(scan);
+    session.add(frame, pipeline);
+    return frame;
+  };
+}
 
 /// Runs `process_scan` on all scans. Each frame goes to the files and `summary` as it is finished.
 Ending process(
@@ -79,15 +96,14 @@ void run(const RunArguments& arguments, RunOptions& options) {
   announce_unfinished(results);
   const auto begin = std::chrono::steady_clock::now();
   RunSummary summary(options.pipeline.inertial.returns.max_count);
+  SessionRecorder session(results.path(), pipeline->map());
   const double imu_time_offset = options.pipeline.inertial.imu_input.time_offset;
-  const auto process_scan = [&](const lio::Scan& scan) {
-    for (const lio::ImuSample& sample : reader->imu_until(scan.t_end - imu_time_offset)) {
-      pipeline->add_imu(sample);
-    }
-    return pipeline->process(scan);
-  };
-  Ending ending =
-      process(*reader, process_scan, interruption, RunFiles(results.path(), origin), summary);
+  Ending ending = process(
+      *reader,
+      scan_process(*reader, imu_time_offset, *pipeline, session),
+      interruption,
+      RunFiles(results.path(), origin),
+      summary);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
   print_notes(reader->info());
   warn(pipeline->findings());
@@ -97,7 +113,9 @@ void run(const RunArguments& arguments, RunOptions& options) {
   attempt({results.path() + "/timing.json"}, ending, [&] {
     write_timing(results.path(), summary, wall.count());
   });
-  publish(results, pipeline->map(), origin, ending);
+  write_map(results, pipeline->map(), origin, ending);
+  attempt({session.path()}, ending, [&] { session.finish(); });
+  results.publish();
   fmt::print("{}", summary.timing_table());
   fmt::print(
       "{}: {} poses of {} scans, {} map points, {:.1f} s\n",

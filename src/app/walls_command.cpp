@@ -11,11 +11,11 @@
 
 #include "app/doing.hpp"
 #include "app/interruption.hpp"
-#include "app/map_origin.hpp"
 #include "app/say.hpp"
 #include "io/file.hpp"
 #include "io/map_cloud.hpp"
 #include "io/map_files.hpp"
+#include "io/map_origin.hpp"
 #include "nvm/map/serialization.hpp"
 #include "nvm/map/sighting.hpp"
 #include "survey/survey.hpp"
@@ -37,7 +37,7 @@ io::MapCloud read_map(const std::string& path) {
   if (extension == ".ply" || extension == ".pcd") {
     return io::read_map_cloud(path);
   }
-  return io::map_cloud_of(without_sightings(load_map(path).points()), read_origin(path));
+  return io::map_cloud_of(without_sightings(load_map(path).points()), io::read_origin(path));
 }
 
 void print_summary(const survey::Survey& found, const std::string& folder) {

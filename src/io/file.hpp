@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The nvm authors
 #pragma once
 
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <string_view>
@@ -16,6 +17,9 @@ std::ifstream open_to_read(const std::string& path);
 
 /// All bytes of a file. Throws std::runtime_error when it cannot be read.
 std::string read_file(const std::string& path);
+
+/// The folder in which `path` lies: "." for a bare name.
+std::filesystem::path folder_of(const std::filesystem::path& path);
 
 /// The extension of `path` in lower case, with its dot.
 std::string extension_of(const std::string& path);

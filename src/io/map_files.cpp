@@ -19,10 +19,10 @@ MapCloud map_cloud_of(const std::vector<MapPoint>& points, const Eigen::Vector3d
 }
 
 void write_map_files(
-    const lio::LioMap& map, const Eigen::Vector3d& origin, const std::string& folder) {
-  write_map_cloud(folder + "/map.ply", map_cloud_of(map.points(), origin));
+    const lio::LioMap& map, const Eigen::Vector3d& origin, const std::string& stem) {
+  write_map_cloud(stem + ".ply", map_cloud_of(map.points(), origin));
   if (map.voxel_map() != nullptr) {
-    save_map(*map.voxel_map(), folder + "/map.nvm");
+    save_map(*map.voxel_map(), stem + ".nvm");
   }
 }
 

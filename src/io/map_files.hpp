@@ -14,9 +14,9 @@ namespace nvm::io {
 /// The points of a map whose origin is at `origin` [m], as the writers of nvm::io take them.
 MapCloud map_cloud_of(const std::vector<MapPoint>& points, const Eigen::Vector3d& origin);
 
-/// Writes map.ply and, for a voxel map, map.nvm to `folder`; map.nvm counts from `origin` [m].
-/// Throws std::runtime_error.
+/// Writes `stem`.ply and, for a voxel map, `stem`.nvm, which counts from `origin` [m]. Throws
+/// std::runtime_error.
 void write_map_files(
-    const lio::LioMap& map, const Eigen::Vector3d& origin, const std::string& folder);
+    const lio::LioMap& map, const Eigen::Vector3d& origin, const std::string& stem);
 
 }  // namespace nvm::io

@@ -76,10 +76,6 @@ bool is_abandoned(const std::string& path) {
   return is_free;
 }
 
-fs::path folder_of(const fs::path& path) {
-  return path.has_parent_path() ? path.parent_path() : fs::path(".");
-}
-
 /// Puts a file, or a folder with all that is in it, on the disk.
 void flush_all(const std::string& path) {
   std::error_code is_file;

@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "io/file.hpp"
+#include "io/session_file.hpp"
 
 namespace nvm::io {
 namespace {
@@ -20,7 +21,8 @@ constexpr const char* kResults[] = {
     "timing.json",
     "map.ply",
     "map.nvm",
-    "map_origin.txt"};
+    "map_origin.txt",
+    SessionWriter::kFileName};
 
 // A pending folder gets the first of these names when it is complete, and the second when the old
 // results are gone: the name tells where a process that was killed has been.

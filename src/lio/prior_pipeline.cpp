@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "nvm/map/sighting.hpp"
+#include "lio/has_planes.hpp"
 
 namespace nvm::lio {
 
@@ -16,10 +16,7 @@ std::unique_ptr<LioMap> usable(const PipelineOptions& options, VoxelMap prior, b
   if (options.map_type != MapType::kNvm) {
     throw std::invalid_argument("a prior map needs map.type=nvm");
   }
-  bool has_normals = false;
-  prior.for_each_point(
-      [&](const MapPoint& point) { has_normals |= !plane_normal(point.normal).isZero(); });
-  if (!has_normals) {
+  if (!has_planes(prior)) {
     throw std::invalid_argument(
         prior.empty() ? "the prior map has no points"
                       : "the points of the prior map have no normals: make it with map.type=nvm");

@@ -47,6 +47,12 @@ TEST_F(PriorTest, LocalisesAndLeavesThePriorMapAlone) {
   }
 }
 
+TEST_F(PriorTest, TakesTheInputAfterTheStart) {
+  const std::string start = "run --start -0.1,0,0,0 " + path("") + for_sparse_scans();
+  const Outcome outcome = nvm(start + " --map " + path("prior/map.nvm") + " --out " + path("out"));
+  EXPECT_EQ(outcome.status, 0) << outcome.errors;
+}
+
 TEST_F(PriorTest, ExtendsACopy) {
   const std::string before = text_of(path("prior/map.nvm"));
   EXPECT_EQ(nvm(in_prior("--start 0,0,0,0 --extend")).status, 0);

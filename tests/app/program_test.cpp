@@ -32,6 +32,7 @@ TEST_F(ProgramTest, RunWritesTrajectoriesMapAndTimes) {
           "frames.csv",
           "map.ply",
           "map.nvm",
+          "session.nvms",
           "timing.json"));
 
   const Trajectory trajectory = io::read_tum(path("out/trajectory.tum"));

@@ -38,6 +38,7 @@ class ResultsTest : public test::ProgramFixture {
             "frames.csv",
             "map.ply",
             "map.nvm",
+            "session.nvms",
             "timing.json"));
     EXPECT_EQ(nvm("info " + path("out/map.nvm")).status, 0);
   }

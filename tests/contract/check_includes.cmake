@@ -3,7 +3,7 @@
 # source file that does not include its own header first, and a file that has grown too long.
 cmake_minimum_required(VERSION 3.22)
 
-set(layers core geometry normal map registration adapters config lio io sim eval survey app)
+set(layers core geometry normal map registration adapters config lio io sim eval survey merge app)
 
 # What each layer may include beside itself.
 set(below_core "")
@@ -18,7 +18,8 @@ set(below_io ${below_lio} lio)
 set(below_sim ${below_lio} lio io)
 set(below_eval ${below_lio} lio io)
 set(below_survey ${below_eval} eval)
-set(below_app ${below_survey} survey sim)
+set(below_merge ${below_lio} lio io)
+set(below_app ${below_survey} survey merge sim)
 
 set(max_lines 300)
 # The core has no streams, threads or libraries of its own: Eigen, nanoflann, and TBB where asked.

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "lio/room_recording.hpp"
+#include "nvm/map/sighting.hpp"
 #include "support/rng.hpp"
 
 namespace nvm::lio {
@@ -163,6 +164,12 @@ TEST(PriorPipeline, RefusesMapsWithoutPointsOrNormals) {
   VoxelMap unsided;
   unsided.insert_unsided(std::vector<Eigen::Vector3f>{{1.0F, 2.0F, 3.0F}});
   EXPECT_THROW(make(std::move(unsided)), std::invalid_argument);
+  VoxelMap of_sightings;
+  const std::vector<Eigen::Vector3f> points{{1.0F, 2.0F, 3.0F}};
+  const std::vector<Eigen::Vector3f> sightings{sighting(points[0], Eigen::Vector3d::Zero())};
+  of_sightings.insert(points, sightings, Pose::Identity());
+  ASSERT_EQ(of_sightings.size(), 1U);
+  EXPECT_THROW(make(std::move(of_sightings)), std::invalid_argument);
 }
 
 }  // namespace

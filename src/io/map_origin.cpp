@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#include "app/map_origin.hpp"
+#include "io/map_origin.hpp"
 
 #include <fmt/format.h>
 
@@ -9,11 +9,18 @@
 #include "io/line_reader.hpp"
 #include "io/pending_path.hpp"
 
-namespace nvm::app {
+namespace nvm::io {
 
 namespace {
 
-constexpr const char* kName = "map_origin.txt";
+namespace fs = std::filesystem;
+
+constexpr const char* kEnding = "_origin.txt";
+
+/// Where the origin of the map file `map` is written.
+fs::path origin_file(const fs::path& map) {
+  return map.parent_path() / (map.stem().string() + kEnding);
+}
 
 }  // namespace
 
@@ -36,23 +43,23 @@ Trajectory moved(Trajectory trajectory, const Eigen::Vector3d& offset) {
   return trajectory;
 }
 
-void write_origin(const std::string& folder, const Eigen::Vector3d& origin) {
-  if (origin.isZero(0.0)) {
-    return;
-  }
-  io::AtomicFile file(folder + "/" + kName);
-  file.stream() << "# x y z [m] of the origin of map.nvm in the coordinates of the poses\n"
+void write_origin(const std::string& map, const Eigen::Vector3d& origin) {
+  AtomicFile file(origin_file(map).string());
+  file.stream() << "# x y z [m] of the origin of the .nvm file in the coordinates of the poses\n"
                 << fmt::format("{} {} {}\n", origin.x(), origin.y(), origin.z());
   file.commit();
 }
 
 Eigen::Vector3d read_origin(const std::string& map) {
-  const std::filesystem::path path = std::filesystem::path(map).parent_path() / kName;
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
-  if (!std::filesystem::exists(path)) {
+  fs::path path = origin_file(map);
+  if (!fs::exists(path)) {  // a map.nvm that was given another name
+    path = fs::path(map).parent_path() / (std::string("map") + kEnding);
+  }
+  if (!fs::exists(path)) {
     return origin;
   }
-  io::LineReader lines(path.string());
+  LineReader lines(path.string());
   const auto words = lines.next();
   if (!words || words->size() != 3) {
     lines.fail("must be the three coordinates of an origin");
@@ -63,4 +70,4 @@ Eigen::Vector3d read_origin(const std::string& map) {
   return origin;
 }
 
-}  // namespace nvm::app
+}  // namespace nvm::io
