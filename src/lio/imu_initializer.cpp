@@ -160,6 +160,7 @@ InitialState ImuInitializer::state_at_rest(const Stillness& stillness) const {
   initial.state.gravity = {0.0, 0.0, -options_.gravity};
   initial.covariance = covariance_of(kStill);
   tie_bias_to_gravity(initial);
+  initial.rest_force = force;
   return initial;
 }
 

@@ -47,6 +47,8 @@ Stillness judge_stillness(
 struct InitialState {
   NavState state;
   NavCovariance covariance;
+  /// That the accelerometer felt at rest [m/s^2, body frame]; zero in motion.
+  Eigen::Vector3d rest_force = Eigen::Vector3d::Zero();
 };
 
 /// Moves `initial` to a map that others have begun, in which the body is at about T_map_body:

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "lio/imu_findings.hpp"
 #include "lio/printed.hpp"
 #include "nvm/core/require.hpp"
 
@@ -44,40 +45,6 @@ bool has_wrong_scale(const TurnComparison& turns) {
          turns.unexplained_changes < kMaxUnexplained;
 }
 
-std::string rotation_finding(const TurnComparison& turns, const Pose& T_body_lidar) {
-  const Eigen::Matrix3d R = turns.rotation.transpose() * T_body_lidar.linear();
-  const Eigen::Quaterniond q(R);
-  const Eigen::AngleAxisd turn(turns.rotation);
-  const Eigen::Vector3d p = T_body_lidar.translation();
-  return printed(
-      "the LiDAR is turned against the IMU by %.0f degrees about (%.2f, %.2f, %.2f): their "
-      "turn rates agree that way only, so T_imu_lidar is missing or wrong; the scans alone are "
-      "used. Set input.T_imu_lidar=[%.3f, %.3f, %.3f, %.4f, %.4f, %.4f, %.4f]%s",
-      turn.angle() / kDegree,
-      turn.axis().x(),
-      turn.axis().y(),
-      turn.axis().z(),
-      p.x(),
-      p.y(),
-      p.z(),
-      q.x(),
-      q.y(),
-      q.z(),
-      q.w(),
-      turns.is_about_one_axis
-          ? " (the sensor turned about one axis alone: a turn about that axis is not known)"
-          : "");
-}
-
-std::string offset_finding(double offset) {
-  return printed(
-      "the IMU's clock is %.0f ms %s: the scans turn when the gyroscope does only if "
-      "imu.time_offset=%.3f is set",
-      1e3 * std::abs(offset),
-      offset > 0.0 ? "late" : "early",
-      -offset);
-}
-
 }  // namespace
 
 ImuJudge::ImuJudge(const ImuInputOptions& options, const Pose& T_body_lidar, double gravity)
@@ -105,7 +72,64 @@ void ImuJudge::add(const ImuSample& reading) {
       measure_in_g();
     }
   }
+  gyro_clipping_.add(reading.gyro);
+  accel_clipping_.add(reading.accel);
   history_.add(mended(reading));
+}
+
+ImuVerdict ImuJudge::judge_rest(const Eigen::Vector3d& force) {
+  constexpr double kTooLittle = 0.97;  // of gravity
+  const auto stuck = accel_clipping_.stuck();
+  if (stuck && force.norm() < kTooLittle * gravity_) {
+    tell(clipping_finding("accelerometer", "m/s^2", *stuck, accel_scale_));
+    return ImuVerdict::kUnusable;
+  }
+  if (options_.accel_scale == 0.0) {
+    rest_.set(force, gravity_);
+  }
+  return ImuVerdict::kUnknown;
+}
+
+ImuVerdict ImuJudge::inspect(double time) {
+  constexpr double kPeriod = 3.0;  // [s]
+  if (const auto axis = gyro_clipping_.clipped()) {
+    tell(clipping_finding("gyroscope", "rad/s", *axis, gyro_scale_));
+    return ImuVerdict::kUnusable;
+  }
+  if (const auto axis = accel_clipping_.clipped()) {
+    tell(clipping_finding("accelerometer", "m/s^2", *axis, accel_scale_));
+    return ImuVerdict::kUnusable;
+  }
+  if (time < inspected_ + kPeriod || history_.duration() < kPeriod) {
+    return ImuVerdict::kUnknown;
+  }
+  clocks_.look(history_, std::max(inspected_, time - kPeriod));
+  inspected_ = time;
+  return weigh_rest(kPeriod);
+}
+
+ImuVerdict ImuJudge::weigh_rest(double duration) {
+  if (!rest_.is_open()) {
+    return ImuVerdict::kUnknown;
+  }
+  rest_.weigh(history_, duration);
+  if (!rest_.scale()) {
+    return ImuVerdict::kUnknown;
+  }
+  accel_scale_ *= *rest_.scale();
+  history_.clear();
+  return ImuVerdict::kMended;
+}
+
+std::vector<std::string> ImuJudge::summary() const {
+  std::vector<std::string> lines = findings_;
+  const std::string clocks = tells_offset_ ? "" : clocks_.finding();
+  for (const std::string& line : {rest_.finding(accel_scale_), clocks}) {
+    if (!line.empty()) {
+      lines.push_back(line);
+    }
+  }
+  return lines;
 }
 
 void ImuJudge::measure_in_g() {
@@ -156,6 +180,7 @@ ImuVerdict ImuJudge::judge_turns(double max_mismatch) {
   has_offset_ = turns->offset != 0.0 && is_explained;
   if (has_offset_) {
     tell(offset_finding(turns->offset));
+    tells_offset_ = true;
   }
   const bool may_mend = !is_turned && options_.gyro_scale == 0.0;
   if (may_mend && has_wrong_scale(*turns)) {

@@ -7,8 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "lio/clock_watch.hpp"
+#include "lio/imu_clipping.hpp"
 #include "lio/motion_fit.hpp"
 #include "lio/motion_history.hpp"
+#include "lio/rest_force.hpp"
 #include "lio/turn_comparison.hpp"
 
 namespace nvm::lio {
@@ -53,11 +56,18 @@ class ImuJudge {
   ImuVerdict judge(double duration);
   /// Of poses that were predicted by the IMU, in which small contradictions do not show.
   ImuVerdict watch();
+  /// Of what the accelerometer feels at rest [m/s^2, body frame].
+  ImuVerdict judge_rest(const Eigen::Vector3d& force);
+  /// Of ranges, clocks, and what the force at rest has left open, the last pose being of `time`
+  /// [s]. Mended is nothing but the scale of the accelerations.
+  ImuVerdict inspect(double time);
   /// The motion at the last pose, once scans and accelerometer agree on it.
   std::optional<MotionFit> motion() const;
 
   /// One line each: what was seen, what it usually means, what mends it.
   const std::vector<std::string>& findings() const { return findings_; }
+  /// The same, and what the whole run says of clocks and force at rest.
+  std::vector<std::string> summary() const;
 
  private:
   static constexpr int kUnitCount = 20;
@@ -66,6 +76,7 @@ class ImuJudge {
   void tell_contradiction(const TurnComparison& turns, bool is_turned);
   ImuVerdict mend_gyro(double factor, std::string finding);
   ImuVerdict judge_gravity();
+  ImuVerdict weigh_rest(double duration);
   ImuVerdict judge_sign(ImuVerdict turns);
   void measure_in_g();
   void tell(std::string finding);
@@ -78,7 +89,12 @@ class ImuJudge {
   Eigen::Vector3d unit_sum_ = Eigen::Vector3d::Zero();
   double sq_unit_sum_ = 0.0;
   MotionHistory history_;
-  bool has_offset_ = false;  ///< of the clocks, by the last look at the turns
+  bool has_offset_ = false;    ///< of the clocks, by the last look at the turns
+  bool tells_offset_ = false;  ///< by any
+  ImuClipping gyro_clipping_, accel_clipping_;
+  RestForce rest_;
+  ClockWatch clocks_;
+  double inspected_ = -1e300;  ///< time of the last inspection [s]
   std::vector<std::string> findings_;
 };
 

@@ -88,6 +88,7 @@ class InertialPipeline final : public Pipeline {
   FrameResult process_alone(const Scan& scan);
   void join_imu(const MotionFit& motion);
   void judge_imu(const FrameResult& result);
+  void forget_accel_bias();
   NavVector extrinsic_deviations() const;
   double max_imu_gap() const;
   void predict(double until);

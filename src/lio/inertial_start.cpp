@@ -32,6 +32,10 @@ bool InertialPipeline::initialize(FrameResult& result) {
     initializer_.add(sample);
     noise_learner_.add(sample);
     if (std::optional<InitialState> initial = initializer_.state()) {
+      if (judge_.judge_rest(initial->rest_force) == ImuVerdict::kUnusable) {
+        is_imu_usable_ = false;
+        return false;
+      }
       initial->covariance.diagonal() += extrinsic_deviations().cwiseAbs2();
       initial->state.T_body_lidar = options_.T_imu_lidar;
       if (start_) {
@@ -52,7 +56,7 @@ bool InertialPipeline::is_to_go_alone(double time) {
   constexpr double kPatience = 0.5;  // [s]
   const double patience = options_.initializer.moving_start_after;
   const bool is_silent = time - std::max(*first_time_, read_until_) > kPatience;
-  return patience >= 0.0 && (initializer_.is_hopeless() || is_silent);
+  return !is_imu_usable_ || (patience >= 0.0 && (initializer_.is_hopeless() || is_silent));
 }
 
 void InertialPipeline::go_alone(const ConstantVelocity& motion) {
@@ -69,11 +73,12 @@ FrameResult InertialPipeline::process_alone(const Scan& scan) {
   if (is_believed(result.status) && is_imu_usable_) {
     judge_.add(StampedPose{result.time, result.T_map_body});
     last_believed_ = {result.time, result.T_map_body};
+    const ImuVerdict inspection = judge_.inspect(result.time);
     const ImuVerdict verdict = judge_.judge(join_after_);
-    is_imu_usable_ = verdict != ImuVerdict::kUnusable;
+    is_imu_usable_ = inspection != ImuVerdict::kUnusable && verdict != ImuVerdict::kUnusable;
     // Where the scans slide they tell no velocity to begin with.
     slid_time_ = result.unobserved.empty() ? slid_time_ : result.time;
-    if (verdict == ImuVerdict::kGood && result.time - slid_time_ > kToSettle) {
+    if (is_imu_usable_ && verdict == ImuVerdict::kGood && result.time - slid_time_ > kToSettle) {
       join_imu(*judge_.motion());
     }
   }
@@ -101,6 +106,18 @@ void InertialPipeline::join_imu(const MotionFit& motion) {
   believed_doubt_ = 0.0;
 }
 
+// A scale that is off looked like a bias at rest.
+void InertialPipeline::forget_accel_bias() {
+  constexpr double kBiasDeviation = 0.1;  // [m/s^2]
+  NavState state = filter_->state();
+  NavCovariance covariance = filter_->covariance();
+  state.accel_bias.setZero();
+  covariance.middleRows<3>(kAccelBias).setZero();
+  covariance.middleCols<3>(kAccelBias).setZero();
+  covariance.diagonal().segment<3>(kAccelBias).setConstant(kBiasDeviation * kBiasDeviation);
+  filter_.emplace(state, covariance, imu_noise_);
+}
+
 // Watches what is believed, and goes on alone when it is lost or contradicts the IMU.
 void InertialPipeline::judge_imu(const FrameResult& result) {
   constexpr std::size_t kFirst = 20;    // frames
@@ -111,6 +128,11 @@ void InertialPipeline::judge_imu(const FrameResult& result) {
     ++believed_;
     const bool is_due = believed_ >= kFirst && (believed_ & (believed_ - 1)) == 0;
     verdict = believed_ == kFirst || is_due ? judge_.watch() : verdict;
+    const ImuVerdict inspection = judge_.inspect(result.time);
+    if (inspection == ImuVerdict::kMended) {
+      forget_accel_bias();
+    }
+    verdict = inspection == ImuVerdict::kUnusable ? inspection : verdict;
   }
   is_imu_usable_ = verdict != ImuVerdict::kUnusable;
   if (result.status == FrameStatus::kInitializing && !is_sure()) {
@@ -125,7 +147,7 @@ void InertialPipeline::judge_imu(const FrameResult& result) {
 }
 
 std::vector<std::string> InertialPipeline::findings() const {
-  std::vector<std::string> findings = judge_.findings();
+  std::vector<std::string> findings = judge_.summary();
   const std::size_t bad = imu_.stats().non_finite + imu_.stats().implausible;
   if (bad > 0) {
     findings.push_back(

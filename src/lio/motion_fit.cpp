@@ -88,7 +88,10 @@ Eigen::Vector3d excess_rate(const MotionHistory& history, double begin) {
 }  // namespace
 
 std::optional<MotionFit> fit_motion(
-    const MotionHistory& history, double duration, double assumed_scale) {
+    const MotionHistory& history,
+    double duration,
+    double assumed_scale,
+    const Eigen::Vector3d& accel_bias) {
   constexpr std::size_t kMinCount = 8;
   constexpr double kFirm = 1e9;
   constexpr double kPoseDeviation = 0.003;  // at least [m]
@@ -98,7 +101,10 @@ std::optional<MotionFit> fit_motion(
   }
   const double begin = poses.front().time;
   const double end = poses.back().time;
-  const std::vector<ImuSample> readings = history.readings(begin, end);
+  std::vector<ImuSample> readings = history.readings(begin, end);
+  for (ImuSample& reading : readings) {
+    reading.accel -= accel_bias;
+  }
   if (readings.empty() || !is_covered(poses, readings)) {
     return std::nullopt;
   }

@@ -24,9 +24,13 @@ struct MotionFit {
 /// Fits p(t) = p0 + v0 t + g t^2 / 2 + s A(t) to the poses of the last `duration` [s], A being the
 /// specific force integrated twice: the linear alignment of visual-inertial initialisation (Qin, Li
 /// and Shen, VINS-Mono, T-RO 2018) with the attitude that the scans tell. The scale s is
-/// `assumed_scale`, or is estimated when that is zero. Nothing when there are too few poses or the
+/// `assumed_scale`, or is estimated when that is zero; `accel_bias` [m/s^2] is taken off the
+/// readings first. Nothing when there are too few poses or the
 /// readings do not cover them.
 std::optional<MotionFit> fit_motion(
-    const MotionHistory& history, double duration, double assumed_scale);
+    const MotionHistory& history,
+    double duration,
+    double assumed_scale,
+    const Eigen::Vector3d& accel_bias = Eigen::Vector3d::Zero());
 
 }  // namespace nvm::lio

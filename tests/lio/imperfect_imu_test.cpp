@@ -3,11 +3,15 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <memory>
+#include <random>
 #include <stdexcept>
+#include <tuple>
 
 #include "config/schema.hpp"
 #include "lio/pipeline_options.hpp"
 #include "lio/room_recording.hpp"
+#include "support/rng.hpp"
 
 namespace nvm::lio {
 namespace {
@@ -119,6 +123,27 @@ TEST(ImperfectImu, IsDoubtedInTurnsAsMuchAsIsSet) {
   schema.set("imu.gyro_scale_noise=0.02");
   EXPECT_EQ(options.inertial.imu_noise.gyro_scale, 0.02);
   EXPECT_THROW(schema.set("imu.gyro_scale_noise=-1"), std::invalid_argument);
+}
+
+TEST(ImperfectImu, WhoseRangeIsTooSmallIsLeftOut) {
+  const auto cut_off = [](double accel, double gyro) {
+    auto generator = std::make_shared<std::mt19937_64>(test::rng());
+    return recording_sending([=](ImuSample& sample) {
+      // Noise, for no axis of a real one reads the same twice.
+      const double noise = std::normal_distribution<double>(0.0, 1e-3)(*generator);
+      sample.accel = (sample.accel.array() + noise).max(-accel).min(accel).matrix();
+      sample.gyro = (sample.gyro.array() + noise).max(-gyro).min(gyro).matrix();
+    });
+  };
+  for (const auto& [accel, gyro, sensor] :
+       {std::tuple(9.0, 50.0, "accelerometer"), std::tuple(90.0, 0.08, "gyroscope")}) {
+    const RoomRecording recording = cut_off(accel, gyro);
+    const Outcome outcome = run(recording);
+    EXPECT_THAT(outcome.findings, ::testing::Contains(::testing::HasSubstr("never reads more")))
+        << sensor;
+    EXPECT_THAT(outcome.findings, ::testing::Contains(::testing::HasSubstr(sensor)));
+    EXPECT_EQ(outcome.frames.back().status, FrameStatus::kTracking) << sensor;
+  }
 }
 
 TEST(ImperfectImu, WithoutAccelerationsIsLeftOut) {

@@ -128,6 +128,33 @@ TEST(ImuJudge, TurnsAWrongSignRound) {
   EXPECT_LT((mended.accel - witness.motion.imu(2.0).accel).norm(), 1e-9);
 }
 
+TEST(ImuJudge, TellsAScaleFromABiasOnceItMoves) {
+  for (const bool is_scale : {false, true}) {
+    Witness witness;
+    witness.judge.judge_rest({0.0, 0.0, 1.15 * 9.81});
+    ImuVerdict verdict = ImuVerdict::kUnknown;
+    for (int i = 0; i < 9000 && verdict != ImuVerdict::kMended; ++i) {
+      const double t = 0.01 * i;
+      ImuSample sample = witness.motion.imu(t);
+      const Eigen::Vector3d bias(0.0, 0.0, 0.15 * 9.81);
+      sample.accel = is_scale ? Eigen::Vector3d(1.15 * sample.accel) : sample.accel + bias;
+      witness.judge.add(sample);
+      if (i % 10 == 9) {
+        witness.judge.add(witness.pose(t));
+        verdict = witness.judge.inspect(t);
+      }
+    }
+    EXPECT_EQ(verdict == ImuVerdict::kMended, is_scale);
+    EXPECT_NEAR(
+        witness.judge.mended({0.0, {0.0, 0.0, 0.0}, {0.0, 0.0, 1.15}}).accel.z(),
+        is_scale ? 1.0 : 1.15,
+        1e-9);
+    EXPECT_THAT(
+        witness.judge.summary(),
+        ::testing::ElementsAre(::testing::HasSubstr(is_scale ? "multiplied by 0.8696" : "bias")));
+  }
+}
+
 TEST(ImuJudge, MissesGravityThatTheDriverRemoved) {
   for (const double share : {0.0, 1.0}) {
     Witness witness;

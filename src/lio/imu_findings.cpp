@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include "lio/imu_findings.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "lio/printed.hpp"
+
+namespace nvm::lio {
+
+std::string rotation_finding(const TurnComparison& turns, const Pose& T_body_lidar) {
+  constexpr double kDegrees = 57.29577951308232;
+  const Eigen::Matrix3d R = turns.rotation.transpose() * T_body_lidar.linear();
+  const Eigen::Quaterniond q(R);
+  const Eigen::AngleAxisd turn(turns.rotation);
+  const Eigen::Vector3d p = T_body_lidar.translation();
+  return printed(
+      "the LiDAR is turned against the IMU by %.0f degrees about (%.2f, %.2f, %.2f): their "
+      "turn rates agree that way only, so T_imu_lidar is missing or wrong; the scans alone are "
+      "used. Set input.T_imu_lidar=[%.3f, %.3f, %.3f, %.4f, %.4f, %.4f, %.4f]%s",
+      turn.angle() * kDegrees,
+      turn.axis().x(),
+      turn.axis().y(),
+      turn.axis().z(),
+      p.x(),
+      p.y(),
+      p.z(),
+      q.x(),
+      q.y(),
+      q.z(),
+      q.w(),
+      turns.is_about_one_axis
+          ? " (the sensor turned about one axis alone: a turn about that axis is not known)"
+          : "");
+}
+
+std::string offset_finding(double offset) {
+  return printed(
+      "the IMU's clock is %.0f ms %s: the scans turn when the gyroscope does only if "
+      "imu.time_offset=%.3f is set",
+      1e3 * std::abs(offset),
+      offset > 0.0 ? "late" : "early",
+      -offset);
+}
+
+std::string clipping_finding(
+    const char* sensor, const char* unit, const ImuClipping::Axis& axis, double scale) {
+  return printed(
+      "the %s never reads more than %.3g %s about %c, where %.0f %% of its readings stand: what "
+      "lies "
+      "beyond its range is cut off; the scans alone are used. Set a larger range in its driver",
+      sensor,
+      std::abs(scale) * axis.limit,
+      unit,
+      "xyz"[axis.index],
+      100.0 * axis.share);
+}
+
+}  // namespace nvm::lio

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <string>
+
+#include "lio/imu_clipping.hpp"
+#include "lio/turn_comparison.hpp"
+#include "nvm/geometry/pose.hpp"
+
+namespace nvm::lio {
+
+// What an ImuJudge says, a line each: what was seen, what it usually means, what mends it.
+
+/// `T_body_lidar` is the extrinsic that the poses take for granted.
+std::string rotation_finding(const TurnComparison& turns, const Pose& T_body_lidar);
+
+/// `offset` [s] as in TurnComparison.
+std::string offset_finding(double offset);
+
+/// `scale` makes `unit` of the readings.
+std::string clipping_finding(
+    const char* sensor, const char* unit, const ImuClipping::Axis& axis, double scale);
+
+}  // namespace nvm::lio
