@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "lio/imu_findings.hpp"
 #include "lio/printed.hpp"
 
 namespace nvm::lio {
@@ -133,12 +134,8 @@ std::string ClockWatch::finding() const {
         1e3 * line.begin,
         1e3 * line.end);
   }
-  return printed(
-      "the IMU's clock is %.0f ms %s, or more: the scans turn when the gyroscope does only then. "
-      "Set imu.time_offset=%.3f, and run again to see what is left",
-      1e3 * std::abs(mean),
-      mean > 0.0 ? "late" : "early",
-      -mean);
+  return offset_finding(mean) +
+         ", or more: poses lean on the IMU, so run again to see what is left";
 }
 
 }  // namespace nvm::lio

@@ -48,8 +48,8 @@ std::string clipping_finding(
     const char* sensor, const char* unit, const ImuClipping::Axis& axis, double scale) {
   return printed(
       "the %s never reads more than %.3g %s about %c, where %.0f %% of its readings stand: what "
-      "lies "
-      "beyond its range is cut off; the scans alone are used. Set a larger range in its driver",
+      "lies beyond its range is cut off; the scans alone are used. Set a larger range in its "
+      "driver",
       sensor,
       std::abs(scale) * axis.limit,
       unit,

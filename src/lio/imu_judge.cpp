@@ -270,6 +270,13 @@ ImuVerdict ImuJudge::judge_sign(ImuVerdict turns) {
   if (!is_about(fit->accel_scale, -1.0, 0.4) || options_.accel_scale != 0.0) {
     return ImuVerdict::kGood;
   }
+  if (!is_about(fit->accel_scale, -1.0, kMaxDeviation)) {
+    tell(
+        "the accelerometer goes against the scans' motion, but not with all of its axes: one is "
+        "turned round, or they are swapped; the scans alone are used. Set imu.accel_scale=-1 if "
+        "all have the wrong sign");
+    return ImuVerdict::kUnusable;
+  }
   accel_scale_ = -accel_scale_;
   history_.clear();
   tell(

@@ -25,8 +25,7 @@ struct MotionFit {
 /// specific force integrated twice: the linear alignment of visual-inertial initialisation (Qin, Li
 /// and Shen, VINS-Mono, T-RO 2018) with the attitude that the scans tell. The scale s is
 /// `assumed_scale`, or is estimated when that is zero; `accel_bias` [m/s^2] is taken off the
-/// readings first. Nothing when there are too few poses or the
-/// readings do not cover them.
+/// readings first. Nothing when there are too few poses or the readings do not cover them.
 std::optional<MotionFit> fit_motion(
     const MotionHistory& history,
     double duration,
