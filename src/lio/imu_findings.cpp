@@ -44,6 +44,15 @@ std::string offset_finding(double offset) {
       -offset);
 }
 
+std::string gravity_finding(double felt, double gravity) {
+  return printed(
+      "the accelerometer feels %.2f m/s^2 of gravity, not %.2f: its driver removes gravity or "
+      "sends no accelerations; the scans alone are used. Record raw accelerations, or set "
+      "imu.accel_scale",
+      felt,
+      gravity);
+}
+
 std::string clipping_finding(
     const char* sensor, const char* unit, const ImuClipping::Axis& axis, double scale) {
   return printed(

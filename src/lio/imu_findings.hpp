@@ -18,6 +18,9 @@ std::string rotation_finding(const TurnComparison& turns, const Pose& T_body_lid
 /// `offset` [s] as in TurnComparison.
 std::string offset_finding(double offset);
 
+/// `felt` and `gravity` [m/s^2].
+std::string gravity_finding(double felt, double gravity);
+
 /// `scale` makes `unit` of the readings.
 std::string clipping_finding(
     const char* sensor, const char* unit, const ImuClipping::Axis& axis, double scale);

@@ -249,12 +249,7 @@ ImuVerdict ImuJudge::judge_gravity() {
     history_.clear();
     return ImuVerdict::kMended;
   }
-  tell(printed(
-      "the accelerometer feels %.2f m/s^2 of gravity, not %.2f: its driver removes gravity or "
-      "sends no accelerations; the scans alone are used. Record raw accelerations, or set "
-      "imu.accel_scale",
-      fit->gravity.norm(),
-      gravity_));
+  tell(gravity_finding(fit->gravity.norm(), gravity_));
   return ImuVerdict::kUnusable;
 }
 
