@@ -53,6 +53,12 @@ std::string gravity_finding(double felt, double gravity) {
       gravity);
 }
 
+std::string mirror_finding() {
+  return "the accelerometer goes against the scans' motion, but not with all of its axes: one is "
+         "turned round, or they are swapped; the scans alone are used. Set imu.accel_scale=-1 if "
+         "all have the wrong sign";
+}
+
 std::string clipping_finding(
     const char* sensor, const char* unit, const ImuClipping::Axis& axis, double scale) {
   return printed(

@@ -21,6 +21,9 @@ std::string offset_finding(double offset);
 /// `felt` and `gravity` [m/s^2].
 std::string gravity_finding(double felt, double gravity);
 
+/// Of an accelerometer.
+std::string mirror_finding();
+
 /// `scale` makes `unit` of the readings.
 std::string clipping_finding(
     const char* sensor, const char* unit, const ImuClipping::Axis& axis, double scale);

@@ -266,10 +266,7 @@ ImuVerdict ImuJudge::judge_sign(ImuVerdict turns) {
     return ImuVerdict::kGood;
   }
   if (!is_about(fit->accel_scale, -1.0, kMaxDeviation)) {
-    tell(
-        "the accelerometer goes against the scans' motion, but not with all of its axes: one is "
-        "turned round, or they are swapped; the scans alone are used. Set imu.accel_scale=-1 if "
-        "all have the wrong sign");
+    tell(mirror_finding());
     return ImuVerdict::kUnusable;
   }
   accel_scale_ = -accel_scale_;
