@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The nvm authors
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "lio/imu_clipping.hpp"
@@ -23,6 +24,9 @@ std::string gravity_finding(double felt, double gravity);
 
 /// Of an accelerometer.
 std::string mirror_finding();
+
+/// `times` the scans alone went on, and do `still`.
+std::string contradiction_finding(std::size_t times, bool still);
 
 /// `scale` makes `unit` of the readings.
 std::string clipping_finding(

@@ -97,10 +97,15 @@ FrameResult InertialPipeline::process(const Scan& scan) {
   is_scan_alone_ = false;
   prepare(scan, result);
   if (!is_rigid(filter_->state().T_world_body)) {  // no reading may end a run
-    go_alone(ConstantVelocity(last_believed_));
+    go_alone(motion_);
     return process_alone(scan);
   }
+  const ConstantVelocity motion = motion_;
   match(result);
+  if (is_led_astray(scan, motion, result)) {
+    leave_imu(motion);
+    return process_alone(scan);
+  }
   insert(result);
   result.T_map_body = filter_->state().T_world_body;
   result.T_map_lidar = filter_->state().T_world_lidar();
@@ -151,9 +156,9 @@ void InertialPipeline::predict(double until) {
 
 void InertialPipeline::coast(double until) {
   constexpr double kLongestTurn = 0.3;  // a hand's turn does not last longer [s]
-  const bool turns = until - last_believed_.time <= kLongestTurn;
+  const bool turns = until - motion_.last().time <= kLongestTurn;
   segments_.push_back(
-      filter_->coast(until, turns ? turn_rate_ : Eigen::Vector3d(Eigen::Vector3d::Zero())));
+      filter_->coast(until, turns ? motion_.rate() : Eigen::Vector3d(Eigen::Vector3d::Zero())));
 }
 
 // A smooth ride looks like rest to the IMU. Where the scans do not tell the speed, as along a wall
@@ -172,11 +177,9 @@ void InertialPipeline::use_rest() {
 
 void InertialPipeline::believe() {
   const StampedPose now{filter_->state().time, filter_->state().T_world_body};
-  const double duration = now.time - last_believed_.time;
-  if (duration > 0.0) {
-    turn_rate_ = so3_log(last_believed_.pose.linear().transpose() * now.pose.linear()) / duration;
+  if (now.time > motion_.last().time) {
+    motion_.add(now);
   }
-  last_believed_ = now;
   believed_doubt_ = pose_doubt(*filter_).translation_deviation;
 }
 
@@ -225,7 +228,7 @@ void InertialPipeline::match(FrameResult& result) {
     return;
   }
   *filter_ = predicted;
-  const bool lost = result.time - last_believed_.time > options_.max_weak_duration;
+  const bool lost = result.time - motion_.last().time > options_.max_weak_duration;
   result.status = lost ? FrameStatus::kLost : FrameStatus::kWeak;
   result.message = kTooLittleFits;
 }
@@ -277,7 +280,7 @@ bool InertialPipeline::agrees_with_map(const MatchResult& match) const {
 void InertialPipeline::find_again() {
   const NavState predicted = filter_->state();
   const std::vector<Pose> guesses = {
-      predicted.T_world_lidar(), last_believed_.pose * predicted.T_body_lidar};
+      predicted.T_world_lidar(), motion_.last().pose * predicted.T_body_lidar};
   const std::vector<Pose> found = search_->search(key_points_, key_normals_, guesses);
   observe_lidar_pose(found.front(), kFoundAgain, *filter_);
   correct_deskew(predicted, filter_->state(), prepared_.scan);

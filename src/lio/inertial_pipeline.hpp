@@ -86,6 +86,8 @@ class InertialPipeline final : public Pipeline {
   bool is_to_go_alone(double time);
   void go_alone(const ConstantVelocity& motion);
   FrameResult process_alone(const Scan& scan);
+  bool is_led_astray(const Scan& scan, const ConstantVelocity& motion, const FrameResult& result);
+  void leave_imu(const ConstantVelocity& motion);
   void join_imu(const MotionFit& motion);
   void judge_imu(const FrameResult& result);
   void forget_accel_bias();
@@ -123,14 +125,15 @@ class InertialPipeline final : public Pipeline {
   std::size_t min_first_keypoints_;  ///< of a scan that begins a map
   std::optional<Pose> start_;        ///< T_map_body in a map that others have begun
   std::optional<ErrorStateFilter> filter_;
-  double read_until_ = -1e300;                           ///< time of the last reading taken [s]
-  ImuNoise imu_noise_;                                   ///< that the filter works with
-  std::optional<double> first_time_;                     ///< of a scan [s]
-  StampedPose last_believed_;                            ///< of the last frame that was
-  double believed_doubt_ = 0.0;                          ///< of its place [m]
-  std::optional<double> placed_time_;                    ///< of the last that told its place [s]
-  std::size_t believed_ = 0;                             ///< frames since the IMU joined
-  Eigen::Vector3d turn_rate_ = Eigen::Vector3d::Zero();  ///< by the LiDAR [rad/s], body frame
+  double read_until_ = -1e300;              ///< time of the last reading taken [s]
+  ImuNoise imu_noise_;                      ///< that the filter works with
+  std::optional<double> first_time_;        ///< of a scan [s]
+  ConstantVelocity motion_{StampedPose()};  ///< of the body, by the frames believed
+  double believed_doubt_ = 0.0;             ///< of its place [m]
+  std::optional<double> placed_time_;       ///< of the last that told its place [s]
+  std::size_t believed_ = 0;                ///< frames since the IMU joined
+  std::size_t contradictions_ = 0;          ///< that made it go on without the IMU
+  std::optional<double> usual_share_;       ///< of inliers
   // Kept for their memory.
   std::deque<ImuSample> unread_;  ///< by the initializer
   std::vector<ImuSample> samples_;

@@ -6,9 +6,16 @@
 #include <string>
 #include <vector>
 
+#include "lio/imu_findings.hpp"
 #include "lio/inertial_pipeline.hpp"
 
 namespace nvm::lio {
+
+namespace {
+
+constexpr double kRejoinAfter = 3.0;  // what has failed once must prove itself for longer [s]
+
+}  // namespace
 
 // All readings go to the judge, and until the first state to the initializer.
 void InertialPipeline::read_imu(double until) {
@@ -43,7 +50,7 @@ bool InertialPipeline::initialize(FrameResult& result) {
       }
       imu_noise_ = noise_learner_.complete(options_.imu_noise, true);
       filter_.emplace(initial->state, initial->covariance, imu_noise_);
-      last_believed_ = {sample.time, initial->state.T_world_body};
+      motion_ = ConstantVelocity({sample.time, initial->state.T_world_body});
       return true;
     }
   }
@@ -61,8 +68,41 @@ bool InertialPipeline::is_to_go_alone(double time) {
 
 void InertialPipeline::go_alone(const ConstantVelocity& motion) {
   alone_.continue_from(motion);
+  motion_ = motion;
   judge_.forget();
   is_alone_ = true;
+}
+
+// Around a wrong prediction a scan may fit half by chance, for the map's voxels reach no farther
+// than their size. One that fits worse than usual is compared with where it lies by itself.
+bool InertialPipeline::is_led_astray(
+    const Scan& scan, const ConstantVelocity& motion, const FrameResult& result) {
+  constexpr double kMemory = 0.1;
+  constexpr double kDoubtful = 0.9;    // of the usual share
+  constexpr double kMuchBetter = 0.1;  // of the keypoints
+  constexpr double kApart = 0.02;      // [m]
+  constexpr double kTurned = 0.01;     // [rad]
+  if (result.residuals == 0) {
+    return false;
+  }
+  const double usual = usual_share_.value_or(result.inlier_share);
+  usual_share_ = usual + kMemory * (result.inlier_share - usual);
+  if (result.inlier_share >= kDoubtful * usual) {
+    return false;
+  }
+  alone_.continue_from(motion);
+  const FrameResult alone = alone_.locate(scan);
+  const Pose apart = filter_->state().T_world_lidar().inverse() * alone.T_map_lidar;
+  return is_believed(alone.status) && alone.inlier_share > result.inlier_share + kMuchBetter &&
+         (apart.translation().norm() > kApart || so3_log(apart.linear()).norm() > kTurned);
+}
+
+// Each time it must prove itself for twice as long, and after the third for longer than it is
+// heard.
+void InertialPipeline::leave_imu(const ConstantVelocity& motion) {
+  ++contradictions_;
+  join_after_ = std::max(kRejoinAfter, 2.0 * join_after_);
+  go_alone(motion);
 }
 
 FrameResult InertialPipeline::process_alone(const Scan& scan) {
@@ -72,7 +112,9 @@ FrameResult InertialPipeline::process_alone(const Scan& scan) {
   imu_.use_until(scan.t_end);
   if (is_believed(result.status) && is_imu_usable_) {
     judge_.add(StampedPose{result.time, result.T_map_body});
-    last_believed_ = {result.time, result.T_map_body};
+    if (result.time > motion_.last().time) {
+      motion_.add({result.time, result.T_map_body});
+    }
     const ImuVerdict inspection = judge_.inspect(result.time);
     const ImuVerdict verdict = judge_.judge(join_after_);
     is_imu_usable_ = inspection != ImuVerdict::kUnusable && verdict != ImuVerdict::kUnusable;
@@ -95,7 +137,7 @@ const std::vector<Eigen::Vector3f>& InertialPipeline::normals() const {
 
 void InertialPipeline::join_imu(const MotionFit& motion) {
   InitialState initial = moving_state(
-      last_believed_, motion.velocity, motion.gravity.normalized() * options_.initializer.gravity);
+      motion_.last(), motion.velocity, motion.gravity.normalized() * options_.initializer.gravity);
   initial.state.gyro_bias = motion.gyro_bias;
   initial.state.T_body_lidar = options_.T_imu_lidar;
   initial.covariance.diagonal() += extrinsic_deviations().cwiseAbs2();
@@ -120,8 +162,7 @@ void InertialPipeline::forget_accel_bias() {
 
 // Watches what is believed, and goes on alone when it is lost or contradicts the IMU.
 void InertialPipeline::judge_imu(const FrameResult& result) {
-  constexpr std::size_t kFirst = 20;    // frames
-  constexpr double kRejoinAfter = 3.0;  // what has failed once must prove itself for longer [s]
+  constexpr std::size_t kFirst = 20;  // frames
   ImuVerdict verdict = ImuVerdict::kUnknown;
   if (is_believed(result.status)) {
     judge_.add(StampedPose{result.time, result.T_map_body});
@@ -141,8 +182,8 @@ void InertialPipeline::judge_imu(const FrameResult& result) {
     return;
   }
   if (result.status == FrameStatus::kLost || !is_imu_usable_ || verdict == ImuVerdict::kMended) {
-    join_after_ = kRejoinAfter;
-    go_alone(ConstantVelocity(last_believed_));
+    join_after_ = std::max(kRejoinAfter, join_after_);
+    go_alone(motion_);
   }
 }
 
@@ -154,7 +195,9 @@ std::vector<std::string> InertialPipeline::findings() const {
         std::to_string(bad) +
         " IMU readings are left out: they are not finite, beyond any IMU, or spikes");
   }
-  if (is_alone_ && judge_.findings().empty()) {
+  if (contradictions_ > 0 && judge_.findings().empty()) {
+    findings.push_back(contradiction_finding(contradictions_, is_alone_));
+  } else if (is_alone_ && judge_.findings().empty()) {
     findings.push_back(
         read_until_ < *first_time_
             ? "no IMU reading is as old as a scan: their clocks differ, set imu.time_offset; the "

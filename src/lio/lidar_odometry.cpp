@@ -63,6 +63,17 @@ void LidarOdometry::continue_from(const ConstantVelocity& motion) {
   observed_time_ = motion.last().time;
 }
 
+FrameResult LidarOdometry::locate(const Scan& scan) {
+  const double time = predicted_.time;
+  const double observed_time = observed_time_;
+  FrameResult result;
+  result.time = scan.t_end;
+  match(prepare(scan, result), result);
+  predicted_.time = time;
+  observed_time_ = observed_time;
+  return result;
+}
+
 FrameResult LidarOdometry::process(const Scan& scan) {
   FrameResult result;
   result.time = scan.t_end;

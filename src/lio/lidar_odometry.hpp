@@ -38,6 +38,9 @@ class LidarOdometry final : public Pipeline {
   /// The motion before the next scan, for a map that others have begun or a start that is not the
   /// identity.
   void continue_from(const ConstantVelocity& motion);
+  /// Where the next scan lies in a map that has been begun. It leaves no trace: process() may take
+  /// the same scan after it.
+  FrameResult locate(const Scan& scan);
 
   void add_imu(const ImuSample& /*sample*/) override {}
   FrameResult process(const Scan& scan) override;

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <random>
 #include <stdexcept>
@@ -184,6 +185,20 @@ TEST(ImperfectImu, WithSpikesIsUsedWithoutThem) {
   const Outcome outcome = run(recording);
   expect_tracks_from(1.3, recording, outcome);
   EXPECT_THAT(outcome.findings, ::testing::ElementsAre(::testing::HasSubstr("are left out")));
+}
+
+TEST(ImperfectImu, ThatLiesDoesNotLeadThePoseAstray) {
+  for (int axis = 0; axis < 2; ++axis) {
+    const RoomRecording recording = recording_sending([axis](ImuSample& sample) {
+      sample.accel[axis] += sample.time > 2.0 ? 8.0 * std::sin(4.0 * sample.time) : 0.0;
+    });
+    const Outcome outcome = run(recording);
+    for (const FrameResult& frame : outcome.frames) {
+      EXPECT_TRUE(frame.time < 1.3 || is_believed(frame.status)) << frame.time;
+      EXPECT_TRUE(frame.time < 1.3 || recording.error(frame) < 0.05) << frame.time;
+    }
+    EXPECT_THAT(outcome.findings, ::testing::ElementsAre(::testing::HasSubstr("led the pose")));
+  }
 }
 
 TEST(LostPose, IsFoundAgainInTheSameRoom) {
