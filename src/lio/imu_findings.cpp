@@ -61,7 +61,8 @@ std::string mirror_finding() {
 
 std::string contradiction_finding(std::size_t times, bool still) {
   return printed(
-      "%zu times scans lay elsewhere than the IMU had led the pose: the scans alone were used from "
+      "scans lay elsewhere than the IMU had led the pose (times: %zu): the scans alone were used "
+      "from "
       "there%s. Check that it is this LiDAR's IMU, its axes (input.T_imu_lidar) and its clock",
       times,
       still ? " to the end" : " until both told the same motion again");

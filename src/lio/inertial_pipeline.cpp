@@ -209,6 +209,7 @@ void InertialPipeline::match(FrameResult& result) {
     find_again();
   }
   const MatchResult match = matcher_->match(*map_, prepared_, *filter_);
+  predictions_.add(predicted, *filter_, match.inlier_share);
   result.residuals = match.residuals;
   result.residual_rms = match.residual_rms;
   result.inlier_share = match.inlier_share;

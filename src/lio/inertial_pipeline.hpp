@@ -17,6 +17,7 @@
 #include "lio/keypoints.hpp"
 #include "lio/lidar_odometry.hpp"
 #include "lio/pipeline.hpp"
+#include "lio/prediction_watch.hpp"
 #include "lio/scan_matcher.hpp"
 #include "lio/scan_preparer.hpp"
 #include "lio/start_search.hpp"
@@ -90,6 +91,7 @@ class InertialPipeline final : public Pipeline {
   void leave_imu(const ConstantVelocity& motion);
   void join_imu(const MotionFit& motion);
   void judge_imu(const FrameResult& result);
+  std::string why_left() const;
   void forget_accel_bias();
   NavVector extrinsic_deviations() const;
   double max_imu_gap() const;
@@ -113,6 +115,7 @@ class InertialPipeline final : public Pipeline {
   ImuNoiseLearner noise_learner_;
   ScanPreparer preparer_;
   ImuJudge judge_;
+  PredictionWatch predictions_;
   std::shared_ptr<StartSearch> search_;
   std::shared_ptr<LioMap> map_;
   LidarOdometry alone_;
@@ -121,6 +124,7 @@ class InertialPipeline final : public Pipeline {
   bool is_imu_usable_ = true;
   double slid_time_ = -1e300;  ///< of the last scan alone that left directions open [s]
   double join_after_ = 1.0;    ///< so long must it tell the motion of the scans [s]
+  double left_time_ = -1e300;  ///< when the scans last went on without it [s]
   std::unique_ptr<ScanMatcher> matcher_;
   std::size_t min_first_keypoints_;  ///< of a scan that begins a map
   std::optional<Pose> start_;        ///< T_map_body in a map that others have begun
@@ -133,7 +137,6 @@ class InertialPipeline final : public Pipeline {
   std::optional<double> placed_time_;       ///< of the last that told its place [s]
   std::size_t believed_ = 0;                ///< frames since the IMU joined
   std::size_t contradictions_ = 0;          ///< that made it go on without the IMU
-  std::optional<double> usual_share_;       ///< of inliers
   // Kept for their memory.
   std::deque<ImuSample> unread_;  ///< by the initializer
   std::vector<ImuSample> samples_;

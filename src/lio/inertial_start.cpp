@@ -73,35 +73,31 @@ void InertialPipeline::go_alone(const ConstantVelocity& motion) {
   is_alone_ = true;
 }
 
-// Around a wrong prediction a scan may fit half by chance, for the map's voxels reach no farther
-// than their size. One that fits worse than usual is compared with where it lies by itself.
+// A doubtful pose is compared with where the scan lies by itself.
 bool InertialPipeline::is_led_astray(
     const Scan& scan, const ConstantVelocity& motion, const FrameResult& result) {
-  constexpr double kMemory = 0.1;
-  constexpr double kDoubtful = 0.9;    // of the usual share
-  constexpr double kMuchBetter = 0.1;  // of the keypoints
-  constexpr double kApart = 0.02;      // [m]
-  constexpr double kTurned = 0.01;     // [rad]
-  if (result.residuals == 0) {
-    return false;
-  }
-  const double usual = usual_share_.value_or(result.inlier_share);
-  usual_share_ = usual + kMemory * (result.inlier_share - usual);
-  if (result.inlier_share >= kDoubtful * usual) {
+  constexpr double kApart = 0.02;   // [m]
+  constexpr double kTurned = 0.02;  // [rad]
+  if (result.residuals == 0 || !predictions_.is_doubtful()) {
     return false;
   }
   alone_.continue_from(motion);
   const FrameResult alone = alone_.locate(scan);
   const Pose apart = filter_->state().T_world_lidar().inverse() * alone.T_map_lidar;
-  return is_believed(alone.status) && alone.inlier_share > result.inlier_share + kMuchBetter &&
-         (apart.translation().norm() > kApart || so3_log(apart.linear()).norm() > kTurned);
+  const bool is_elsewhere =
+      apart.translation().norm() > kApart || so3_log(apart.linear()).norm() > kTurned;
+  return is_elsewhere && is_believed(alone.status) && alone.unobserved.empty() &&
+         alone.inlier_share > result.inlier_share;
 }
 
-// Each time it must prove itself for twice as long, and after the third for longer than it is
-// heard.
+// Each time soon after the last it must prove itself for twice as long: after the third for longer
+// than it is heard.
 void InertialPipeline::leave_imu(const ConstantVelocity& motion) {
+  constexpr double kSoon = 30.0;  // [s]
+  const double now = filter_->state().time;
   ++contradictions_;
-  join_after_ = std::max(kRejoinAfter, 2.0 * join_after_);
+  join_after_ = now - left_time_ < kSoon ? std::max(kRejoinAfter, 2.0 * join_after_) : kRejoinAfter;
+  left_time_ = now;
   go_alone(motion);
 }
 
@@ -189,22 +185,33 @@ void InertialPipeline::judge_imu(const FrameResult& result) {
 
 std::vector<std::string> InertialPipeline::findings() const {
   std::vector<std::string> findings = judge_.summary();
+  const std::string doubt = judge_.findings().empty() ? why_left() : "";
+  const std::string misled = findings.empty() && doubt.empty() ? predictions_.finding() : "";
   const std::size_t bad = imu_.stats().non_finite + imu_.stats().implausible;
-  if (bad > 0) {
-    findings.push_back(
-        std::to_string(bad) +
-        " IMU readings are left out: they are not finite, beyond any IMU, or spikes");
-  }
-  if (contradictions_ > 0 && judge_.findings().empty()) {
-    findings.push_back(contradiction_finding(contradictions_, is_alone_));
-  } else if (is_alone_ && judge_.findings().empty()) {
-    findings.push_back(
-        read_until_ < *first_time_
-            ? "no IMU reading is as old as a scan: their clocks differ, set imu.time_offset; the "
-              "scans alone are used"
-            : "the IMU has not told the motion that the scans tell: the scans alone are used");
+  const std::string left_out =
+      bad == 0 ? ""
+               : std::to_string(bad) +
+                     " IMU readings are left out: they are not finite, beyond any IMU, or spikes";
+  for (const std::string& line : {doubt, misled, left_out}) {
+    if (!line.empty()) {
+      findings.push_back(line);
+    }
   }
   return findings;
+}
+
+// Where its judge has found no cause; empty when it was not left.
+std::string InertialPipeline::why_left() const {
+  if (contradictions_ > 0) {
+    return contradiction_finding(contradictions_, is_alone_);
+  }
+  if (!is_alone_) {
+    return "";
+  }
+  return read_until_ < *first_time_
+             ? "no IMU reading is as old as a scan: their clocks differ, set imu.time_offset; the "
+               "scans alone are used"
+             : "the IMU has not told the motion that the scans tell: the scans alone are used";
 }
 
 // The first scan makes the map where the assumed extrinsic puts it, so that in this map the body's
