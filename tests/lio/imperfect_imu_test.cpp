@@ -211,7 +211,8 @@ TEST(ImperfectImu, WhoseLiesAreSmallIsNamed) {
   });
   const Outcome outcome = run(recording);
   expect_tracks_from(1.3, recording, outcome);
-  EXPECT_THAT(outcome.findings, ::testing::ElementsAre(::testing::ContainsRegex("le(d|ads) the pose")));
+  EXPECT_THAT(
+      outcome.findings, ::testing::ElementsAre(::testing::ContainsRegex("le(d|ads) the pose")));
 }
 
 TEST(LostPose, IsFoundAgainInTheSameRoom) {
