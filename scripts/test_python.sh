@@ -4,7 +4,6 @@ set -euo pipefail
 source "$(dirname "$0")/environment.sh"
 root=$PWD
 folder=build/python
-root=$PWD
 rm -rf "$folder" && mkdir -p "$folder"
 python3 -m venv "$folder/venv"
 python="$PWD/$folder/venv/bin/python"
@@ -18,12 +17,13 @@ wheel=$(ls "$folder"/nvm-*.whl)
 begin = time.perf_counter()
 subprocess.run([sys.executable, "-c", "import nvm"], check=True)
 print(f"import nvm: {time.perf_counter() - begin:.2f} s, the interpreter included")'
-cd python/tests # not the root, whose folder python/nvm must not stand in for the installed package
-# C++ that was built before is what Python must agree with.
+# C++ that was built before is what Python must agree with, and has the simulator.
 for build in "$root/build/dev" "$root/build/release"; do
   if [[ -x $build/tests/io/print_sequence && -x $build/bin/nvm ]]; then
-    export NVM_PRINT_SEQUENCE="$build/tests/io/print_sequence" NVM_PROGRAM="$build/bin/nvm"
+    export NVM_PRINT_SEQUENCE="$build/tests/io/print_sequence" NVM_TOOLS="$build/bin"
     break
   fi
 done
-"$python" -m pytest
+cd python/tests # not the root, whose folder python/nvm must not stand in for the installed package
+# No program is on the PATH, nor named: the commands have the one of the wheel.
+env -u NVM_PROGRAM PATH="$(dirname "$python"):/usr/bin:/bin" "$python" -m pytest

@@ -24,6 +24,8 @@ IMU = "sensor_msgs/msg/Imu"
 TRANSFORMS = "tf2_msgs/msg/TFMessage"
 TIME_FIELDS = ("time", "t", "timestamp", "offset_time", "time_stamp")
 SCALARS = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 8: "f8"}
+ROS2 = (".db3", ".mcap")
+SCANS = (".pcd", ".ply", ".bin")
 SAMPLES = 10  # messages of a topic that are looked at
 
 
@@ -68,11 +70,31 @@ class Message:
 
 
 def is_bag(path: str | pathlib.Path) -> bool:
-    """Whether `path` is a recording of ROS 1 or ROS 2, by its name or its metadata."""
+    """Whether `path` is a recording of ROS 1 or ROS 2."""
+    return bool(bags_of(pathlib.Path(path)))
+
+
+def bags_of(path: pathlib.Path) -> list[pathlib.Path]:
+    """What rosbags is to open for `path`: a folder may hold the parts of a recording alone, as the
+    program has it (src/io/open_sequence.cpp)."""
+    if not path.is_dir():
+        return [path] if path.suffix in (".bag", ".zstd", *ROS2) else []
+    metadata = path / "metadata.yaml"
+    if metadata.is_file() and b"rosbag2_bagfile_information" in metadata.read_bytes():
+        return [path]
+    files = sorted(file for file in path.iterdir() if file.is_file())
+    if any(file.name == "scans.csv" for file in files):
+        return []
+    ros2 = [file for file in files if file.suffix in ROS2]
+    if ros2 and not any(file.suffix.lower() in SCANS for file in files):
+        return ros2
+    return [file for file in files if file.suffix == ".bag"]
+
+
+def is_ros1(path: str | pathlib.Path) -> bool:
+    """Whether `path` is there and names bags of ROS 1 alone."""
     path = pathlib.Path(path)
-    if path.is_dir():
-        return (path / "metadata.yaml").is_file()
-    return path.suffix in (".bag", ".db3", ".mcap", ".zstd")
+    return path.exists() and is_bag(path) and all(bag.suffix == ".bag" for bag in bags_of(path))
 
 
 class Recording:
@@ -81,8 +103,8 @@ class Recording:
     Parameters
     ----------
     path : path
-        A ``.bag``, ``.mcap`` or ``.db3`` file, or the folder of a ROS 2 bag; a file of a split bag
-        stands for the whole.
+        A ``.bag``, ``.mcap`` or ``.db3`` file, or a folder of them; a file of a split ROS 2 bag stands
+        for the whole.
 
     Raises
     ------
@@ -97,12 +119,13 @@ class Recording:
         except ImportError as error:
             raise BagError(f"{path}: bags are read by rosbags: pip install rosbags") from error
         self.path = pathlib.Path(path)
-        is_part = self.path.suffix != ".bag" and (self.path.parent / "metadata.yaml").is_file()
-        whole = self.path.parent if is_part and self.path.is_file() else self.path
+        folder = self.path.parent
+        is_part = self.path.suffix != ".bag" and self.path.is_file() and bags_of(folder) == [folder]
+        bags = [folder] if is_part else bags_of(self.path) or [self.path]
         store = get_typestore(Stores.ROS2_HUMBLE)
         register_livox(store)
         try:
-            self._reader = AnyReader([whole], default_typestore=store)
+            self._reader = AnyReader(bags, default_typestore=store)
             self._reader.open()
         except (AnyReaderError, OSError, ValueError) as error:
             raise BagError(f"{path}: {error}") from error

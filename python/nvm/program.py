@@ -18,16 +18,18 @@ import struct
 import subprocess
 import sys
 
-from .bags import BagError, Recording, is_bag
+from . import _nvm
+from .bags import BagError, Recording, is_bag, is_ros1
 from .choice import Choice, choose
 
 END = 0xFFFFFFFF  # in the place of a topic
 PIPE_SIZE = 1 << 20  # [bytes]
 
 
-def find_program() -> str:
-    """The program: the one that $NVM_PROGRAM names, that lies in the package, or that is on the PATH,
-    where this command of the same name may come first.
+def find_program(command: str = "") -> str:
+    """The program for `command`: the one that $NVM_PROGRAM names, or that of the package. That one has no
+    simulator, so ``simulate`` goes to one on the PATH, of nvm-tools, where this command of the same name
+    may come first.
 
     Raises
     ------
@@ -36,14 +38,12 @@ def find_program() -> str:
     """
     if named := os.environ.get("NVM_PROGRAM"):
         return named
-    places = [pathlib.Path(__file__).parent / "bin", *map(pathlib.Path, os.get_exec_path())]
-    for program in (place / "nvm" for place in places):
+    package = pathlib.Path(_nvm.__file__).parent / "bin"
+    path = map(pathlib.Path, os.get_exec_path()) if command == "simulate" else ()
+    for program in (place / "nvm" for place in (*path, package)):
         if is_compiled(program):
             return str(program)
-    raise RuntimeError(
-        "this needs the C++ program, which pip does not bring: install nvm-tools, or build it (scripts/demo.sh "
-        "makes build/release/bin/nvm) and let NVM_PROGRAM name it; nvm.Odometry works without"
-    )
+    raise RuntimeError(f"{package} lacks the program: install nvm again (pip install --force-reinstall)")
 
 
 def is_compiled(path: pathlib.Path) -> bool:
@@ -58,13 +58,20 @@ def is_compiled(path: pathlib.Path) -> bool:
 def run_program(arguments: list[str]) -> int:
     """Runs the program on `arguments` and returns its exit code. The first argument that names a bag
     is read for it."""
-    program = find_program()
+    program = find_program(arguments[0])
     bags = [i for i, argument in enumerate(arguments) if i > 0 and is_bag(argument)]
     if not bags or arguments[0] not in ("run", "map"):
         return exit_code(subprocess.run([program, *arguments], check=False).returncode)
     before, bag, after = arguments[: bags[0]], arguments[bags[0]], arguments[bags[0] + 1 :]
     settings = input_settings(program, before + after)
-    with Recording(bag) as recording:
+    try:
+        recording = Recording(bag)
+    except BagError as error:
+        if not is_ros1(bag):
+            raise
+        print(f"nvm: note: {error}; the program reads what there is", file=sys.stderr)
+        return exit_code(subprocess.run([program, *arguments], check=False).returncode)
+    with recording:
         choice = choose(recording, settings["lidar_topic"], settings["imu_topic"])
         for reason in choice.reasons:
             print(f"nvm: note: {reason}", file=sys.stderr)

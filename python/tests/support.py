@@ -2,7 +2,20 @@
 # Copyright (c) 2026 The nvm authors
 """Scans and oracles that several tests share."""
 
+import subprocess
+import sys
+
 import numpy as np
+
+
+def nvm(*arguments):
+    """The command of the package, on the package that is tested."""
+    return subprocess.run(
+        [sys.executable, "-c", "import sys; from nvm.cli import main; sys.exit(main())", *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        timeout=300,
+    )
 
 
 def unit(vectors):

@@ -172,7 +172,8 @@ def test_what_is_no_bag_is_said_in_one_line(tmp_path):
         assert "\n" not in str(caught.value)
     with pytest.raises(BagError, match="missing.bag"):
         Recording(tmp_path / "missing.bag")
-    assert not is_bag(tmp_path)
+    (tmp_path / "folder").mkdir()
+    assert not is_bag(tmp_path / "folder")
 
 
 def test_info_tells_what_is_there_and_what_would_be_read(rng, tmp_path, capsys):

@@ -3,19 +3,20 @@
 """nvm.Odometry against the truth of simple motions, and against `nvm run` bit by bit."""
 
 import json
-import subprocess
+import os
+import pathlib
 
 import numpy as np
 import pytest
+from sequences import RECORD, write_sequence
 from support import box_room
+from support import nvm as command
 
 import nvm
-from nvm.program import find_program
 from nvm.transforms import rotation
 
 STEP = np.array([0.04, 0.02, 0.0])  # between two scans [m]
 PERIOD = 0.1  # [s]
-RECORD = np.dtype([("xyz", "<f4", 3), ("intensity", "<f4"), ("dt", "<f4"), ("ring", "<u2"), ("pad", "<u2")])
 
 
 def walk(rng, scans=12, begin=0.0):
@@ -175,7 +176,7 @@ def test_bad_readings_are_named_and_none_is_taken():
 
 
 def run_sequence(folder):
-    """Times and T_map_body that nvm.Odometry makes of a sequence of `nvm simulate`."""
+    """Times and T_map_body that nvm.Odometry makes of an nvm sequence."""
     extrinsic = json.loads((folder / "meta.json").read_text())["T_imu_lidar"]
     T = np.eye(4)
     T[:3, :3], T[:3, 3] = rotation(*extrinsic["quaternion_xyzw"]), extrinsic["translation"]
@@ -194,30 +195,33 @@ def run_sequence(folder):
     return np.array(poses), odometry.map
 
 
-@pytest.fixture(scope="module")
-def simulated(tmp_path_factory):
-    """A simulated sequence and its run."""
-    folder = tmp_path_factory.mktemp("simulated")
-    try:
-        sequence = nvm.simulate("wall5", folder / "sequence", sensor="vlp16", duration=6.0)
-    except RuntimeError as error:
-        pytest.skip(str(error))
-    subprocess.run([find_program(), "run", sequence, "--out", folder / "out"], check=True, capture_output=True)
-    return sequence, folder / "out"
+TOOLS = os.environ.get("NVM_TOOLS")  # the folder of a program with a simulator, as Debian's compiler makes it
 
 
-def test_gives_the_bits_of_nvm_run(simulated):
-    sequence, out = simulated
+needs_tools = pytest.mark.skipif(not TOOLS, reason="needs $NVM_TOOLS")
+
+
+@pytest.mark.parametrize("program", ["", pytest.param(TOOLS, marks=needs_tools)])
+def test_gives_the_bits_of_nvm_run(rng, tmp_path, monkeypatch, program):
+    """Those of the package's program, and of one built with Debian's libraries."""
+    if program:
+        monkeypatch.setenv("NVM_PROGRAM", str(pathlib.Path(program) / "nvm"))
+    sequence = write_sequence(tmp_path / "walk", rng)
+    done = command("run", sequence, "--out", tmp_path / "out")
+    assert done.returncode == 0, done.stderr
     poses, voxel_map = run_sequence(sequence)
-    expected = np.loadtxt(out / "trajectory.tum")
-    assert len(expected) > 20
+    expected = np.loadtxt(tmp_path / "out" / "trajectory.tum")
+    assert len(expected) > 60
     np.testing.assert_allclose(poses, expected[:, :4], rtol=0, atol=1e-9)  # as TUM files print them
-    np.testing.assert_array_equal(voxel_map.points, nvm.load(out / "map.nvm").points)
+    np.testing.assert_array_equal(voxel_map.points, nvm.load(tmp_path / "out" / "map.nvm").points)
 
 
-def test_simulation_and_evaluation_are_those_of_the_program(simulated, tmp_path):
-    sequence, out = simulated
-    report = nvm.evaluate(out, tmp_path / "report", truth=sequence)
+@needs_tools
+def test_simulation_and_evaluation_are_those_of_the_program(tmp_path, monkeypatch):
+    monkeypatch.setenv("PATH", TOOLS)
+    sequence = nvm.simulate("wall5", tmp_path / "sequence", sensor="vlp16", duration=6.0)
+    assert command("run", sequence, "--out", tmp_path / "out").returncode == 0
+    report = nvm.evaluate(tmp_path / "out", tmp_path / "report", truth=sequence)
     assert json.loads((tmp_path / "report" / "evaluation.json").read_text()) == report
     assert len(report["runs"]) == 1 and (tmp_path / "report" / "report.html").is_file()
     again = nvm.simulate("wall5", tmp_path / "again", sensor="vlp16", duration=6.0, seed=1)

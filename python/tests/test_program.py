@@ -1,27 +1,24 @@
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 The nvm authors
-"""The command nvm on recordings: what the C++ program says, bit by bit."""
+"""The command nvm on bags: what the C++ program says of them, bit by bit."""
 
 import os
 import pathlib
 import shutil
 import subprocess
-import sys
 
 import numpy as np
 import pytest
 
 pytest.importorskip("rosbags")
 from recordings import CLOUD, FORMATS, IMU, LIVOX, LIVOX_POINT, TF, records, write
-from support import box_room
+from rosbags.rosbag1 import Reader as Reader1
+from rosbags.rosbag1 import Writer as Writer1
+from support import box_room, nvm
 
 from nvm.program import find_program, is_compiled
 
-try:
-    PROGRAM = find_program()
-except RuntimeError as error:
-    pytest.skip(str(error), allow_module_level=True)
-
+PROGRAM = find_program()
 BEGIN = 1000.0  # [s]
 
 
@@ -61,17 +58,6 @@ def seeded(seed=7, **options):
     return standing_still(np.random.default_rng(seed), **options)
 
 
-def nvm(*arguments, **environment):
-    """The command of the package."""
-    return subprocess.run(
-        [sys.executable, "-c", "import sys; from nvm.cli import main; sys.exit(main())", *map(str, arguments)],
-        capture_output=True,
-        text=True,
-        env={**os.environ, **environment},
-        timeout=300,
-    )
-
-
 def trajectory(folder):
     text = (folder / "trajectory.tum").read_text()
     assert len(text.splitlines()) > 10
@@ -107,8 +93,6 @@ def test_the_program_itself_gives_the_same_bits(reference, tmp_path):
         capture_output=True,
         text=True,
     )
-    if "built without ROS 1 bags" in done.stderr:
-        pytest.skip("the program does not read bags")
     assert done.returncode == 0, done.stderr
     assert trajectory(tmp_path / "out") == reference[0]
 
@@ -143,20 +127,77 @@ def test_a_bag_that_breaks_off_is_an_error_in_one_line(tmp_path):
     assert "Traceback" not in done.stderr and str(folder) in done.stderr
 
 
-def test_other_commands_go_to_the_program(tmp_path):
-    done = nvm("run", tmp_path / "missing", "--out", tmp_path / "out")
-    assert done.returncode != 0 and "does not exist" in done.stderr
-    done = nvm("run", "--help")
-    assert done.returncode == 0 and "--print-config" in done.stdout
+def test_a_folder_of_ros1_bags_is_one_recording(reference, tmp_path):
+    whole = write(tmp_path / "still", "bag", seeded())
+    parts = tmp_path / "parts"
+    parts.mkdir()
+    split(whole, parts)
+    done = nvm("run", parts, "--out", tmp_path / "out")
+    assert done.returncode == 0, done.stderr
+    assert trajectory(tmp_path / "out") == reference[0]
+    (parts / "metadata.yaml").write_text("of: something else\n")
+    assert "lidar: /points" in nvm("info", parts).stdout
 
 
-def test_without_the_program_it_says_what_to_install(tmp_path):
-    done = nvm("run", tmp_path, NVM_PROGRAM=str(tmp_path / "none"))
-    assert done.returncode == 1 and "none" in done.stderr and "Traceback" not in done.stderr
-    assert shutil.which(PROGRAM) or pathlib.Path(PROGRAM).is_file()
+def test_a_folder_without_its_metadata_is_still_a_ros2_bag(reference, tmp_path):
+    folder = write(tmp_path / "still", "mcap", seeded())
+    (folder / "metadata.yaml").unlink()
+    done = nvm("run", folder, "--out", tmp_path / "out")
+    assert done.returncode == 0, done.stderr
+    assert trajectory(tmp_path / "out") == reference[0]
 
 
-def test_finds_the_program_on_the_path_behind_scripts_of_its_name(tmp_path, monkeypatch):
+@pytest.mark.parametrize("compression", ["none", "bz2", "lz4"])
+def test_a_ros1_bag_that_was_cut_off_is_read_as_far_as_it_goes(tmp_path, compression):
+    with Reader1(write(tmp_path / "still", "bag", seeded())) as reader:
+        bag = copy(reader, tmp_path / "cut.bag", (None, None), compression)
+    bag.write_bytes(bag.read_bytes()[: bag.stat().st_size * 3 // 4])
+    done = nvm("run", bag, "--out", tmp_path / "out")
+    assert "Traceback" not in done.stderr
+    if compression == "none":
+        assert done.returncode == 0, done.stderr
+        trajectory(tmp_path / "out")
+    else:
+        assert done.returncode != 0
+        assert f"is compressed ({compression})" in done.stderr and "rosbag decompress" in done.stderr
+
+
+def split(bag, folder):
+    """Copies a bag into two of half its length."""
+    with Reader1(bag) as reader:
+        middle = (reader.start_time + reader.end_time) // 2
+        copy(reader, folder / "part_1.bag", (None, middle))
+        copy(reader, folder / "part_2.bag", (middle, None))
+
+
+def copy(reader, path, span, compression="none"):
+    """Writes the messages from one time to another [ns] to a bag; returns its path."""
+    writer = Writer1(path)
+    if compression != "none":
+        writer.set_compression(Writer1.CompressionFormat[compression.upper()])
+    with writer:
+        connections = {}
+        for connection, time, data in reader.messages(start=span[0], stop=span[1]):
+            if connection.id not in connections:
+                kind, text, digest = connection.msgtype, connection.msgdef.data, connection.digest
+                connections[connection.id] = writer.add_connection(
+                    connection.topic, kind, msgdef=text, md5sum=digest
+                )
+            writer.write(connections[connection.id], time, data)
+    return path
+
+
+def test_the_program_is_that_of_the_package(monkeypatch, tmp_path):
+    monkeypatch.delenv("NVM_PROGRAM", raising=False)
+    package = pathlib.Path(find_program("run"))
+    assert package.parts[-3:] == ("nvm", "bin", "nvm") and is_compiled(package)
+    monkeypatch.setenv("NVM_PROGRAM", str(tmp_path / "mine"))
+    assert find_program("run") == find_program("simulate") == str(tmp_path / "mine")
+    done = nvm("run", tmp_path)
+    assert done.returncode == 1 and "mine" in done.stderr and "Traceback" not in done.stderr
+
+
+def test_a_simulator_on_the_path_is_found_behind_scripts_of_its_name(tmp_path, monkeypatch):
     monkeypatch.delenv("NVM_PROGRAM", raising=False)
     script, compiled = tmp_path / "a" / "nvm", tmp_path / "b" / "nvm"
     for path in (script, compiled):
@@ -165,8 +206,8 @@ def test_finds_the_program_on_the_path_behind_scripts_of_its_name(tmp_path, monk
     script.chmod(0o755)
     shutil.copy(PROGRAM, compiled)
     monkeypatch.setenv("PATH", f"{script.parent}{os.pathsep}{compiled.parent}")
-    assert find_program() == str(compiled)
+    assert find_program("simulate") == str(compiled) and find_program("run") != str(compiled)
     assert not is_compiled(script)
     monkeypatch.setenv("PATH", str(script.parent))
-    with pytest.raises(RuntimeError, match="nvm-tools"):
-        find_program()
+    done = nvm("simulate", "wall5", "--out", tmp_path / "out")
+    assert done.returncode != 0 and "nvm-tools" in done.stderr and done.stderr.count("\n") == 1

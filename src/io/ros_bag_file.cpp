@@ -30,6 +30,15 @@ RosBagFile::RosBagFile(const std::string& path) : path_(path), file_(open_to_rea
     fail(path, "is not a ROS 1 bag of format 2.0");
   }
   scan();
+  for (const Chunk& chunk : chunks_) {
+    if (is_built_without(chunk.compression)) {
+      fail(
+          path,
+          "is compressed (" + chunk.compression +
+              "), which this nvm was built without: the command nvm of the Python package reads "
+              "whole bags of that kind, and rosbag decompress expands them");
+    }
+  }
 }
 
 std::string RosBagFile::read(std::uint64_t position, std::size_t size) {

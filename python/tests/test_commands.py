@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: MIT
+# Copyright (c) 2026 The nvm authors
+"""Every command of the program that the package brings, on a walk around a wall of 0.1 m, against its truth."""
+
+import json
+
+import numpy as np
+import pytest
+from sequences import WALL, scan, write_sequence, write_truth
+from support import nvm
+
+from nvm import load
+
+COMMANDS = ("run", "map", "merge", "walls", "export", "evaluate")
+
+
+def done(*arguments):
+    """What a command prints; it must succeed."""
+    result = nvm(*arguments)
+    assert result.returncode == 0, result.stderr
+    return result.stdout
+
+
+@pytest.fixture(scope="module")
+def walks(tmp_path_factory):
+    """Two walks as sequences, walk_0 and walk_1, and their runs, run_0 and run_1."""
+    folder = tmp_path_factory.mktemp("walks")
+    for i in range(2):
+        write_sequence(folder / f"walk_{i}", np.random.default_rng(i))
+        done("run", folder / f"walk_{i}", "--out", folder / f"run_{i}")
+    return folder
+
+
+def test_run_and_evaluate(walks, tmp_path):
+    done("evaluate", walks / "run_0", "--truth", walks / "walk_0", "--out", tmp_path / "report")
+    report = json.loads((tmp_path / "report" / "evaluation.json").read_text())
+    assert report["runs"][0]["trajectory"]["ate_m"]["rmse"] < 0.002
+
+
+def test_walls_measures_the_wall(walks, tmp_path):
+    text = done("walls", walks / "run_0" / "map.nvm", "--out", tmp_path / "walls")
+    rows = [line.split() for line in text.splitlines() if " wall " in line]
+    assert len(rows) == 1 and float(rows[0][2]) == pytest.approx(100.0, abs=2.0), text
+
+
+def test_merge_and_info(walks, tmp_path):
+    done("merge", walks / "run_0", walks / "run_1", "--out", tmp_path / "all.nvm")
+    assert "VoxelMap" in done("info", tmp_path / "all.nvm")
+
+
+def test_map_from_poses_and_export(tmp_path, rng):
+    (tmp_path / "scans").mkdir()
+    times = np.array([1.0, 2.5, 3.5, 4.5, 6.0])
+    for time in times:
+        write_ply(tmp_path / "scans" / f"{time:.6f}.ply", scan(rng, time, 20_000, sweep=0.0)[0])
+    write_truth(tmp_path / "poses.tum", times)
+    done("map", tmp_path / "scans", "--poses", tmp_path / "poses.tum", "--out", tmp_path / "out")
+    points = load(tmp_path / "out" / "map.nvm").points
+    wall = points[(np.abs(points[:, 0]) < 0.8) & (np.abs(points[:, 1]) < 0.3) & (np.abs(points[:, 2]) < 1.0)]
+    assert len(wall) > 200
+    np.testing.assert_allclose(np.abs(wall[:, 1]), WALL[1, 1], atol=0.02)
+    done("export", tmp_path / "out" / "map.nvm", "--out", tmp_path / "map.pcd")
+    assert (tmp_path / "map.pcd").stat().st_size > 10_000
+
+
+def write_ply(path, points):
+    head = f"ply\nformat binary_little_endian 1.0\nelement vertex {len(points)}\n"
+    head += "".join(f"property float {axis}\n" for axis in "xyz") + "end_header\n"
+    path.write_bytes(head.encode() + points.astype("<f4").tobytes())
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_help(command):
+    assert "--out" in done(command, "--help")
+    failed = nvm(command, "--no-such-option")
+    assert failed.returncode == 2 and f"nvm {command} has no option" in failed.stderr
+
+
+def test_the_help_of_the_command_names_all():
+    text = done("--help")
+    assert all(f"    {name} " in text for name in (*COMMANDS, "info", "simulate", "view", "plot")), text
+
+
+def test_the_default_config_can_be_printed():
+    assert "voxel_size:" in done("run", "--print-config")
