@@ -16,9 +16,8 @@ test:  ## build everything and run every test
 bench:  ## build for this machine and measure
 	scripts/bench.sh
 
-docs:  ## API pages in build/docs/html
-	scripts/setup.sh --developer
-	mkdir -p build/docs && doxygen docs/Doxyfile
+docs:  ## the site with all pages and interfaces, in build/docs
+	scripts/docs.sh
 
 format:  ## format every C++ file
 	scripts/format.sh
