@@ -23,6 +23,11 @@ def info(arguments) -> None:
     from . import load, open_store
 
     if os.path.isdir(arguments.path):
+        if not os.path.exists(os.path.join(arguments.path, "index.json")):
+            raise RuntimeError(
+                f"{arguments.path}: is neither a bag nor a store of tiles; what scans or an nvm sequence hold, "
+                "nvm run says, and of its results nvm info takes the map.nvm"
+            )
         describe_store(open_store(arguments.path), arguments.check)
         return
     voxel_map = load(arguments.path)

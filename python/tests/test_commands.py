@@ -46,6 +46,8 @@ def test_walls_measures_the_wall(walks, tmp_path):
 def test_merge_and_info(walks, tmp_path):
     done("merge", walks / "run_0", walks / "run_1", "--out", tmp_path / "all.nvm")
     assert "VoxelMap" in done("info", tmp_path / "all.nvm")
+    for folder in ("walk_0", "run_0"):
+        assert "nvm run says" in nvm("info", walks / folder).stderr
 
 
 def test_map_from_poses_and_export(tmp_path, rng):
