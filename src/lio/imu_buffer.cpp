@@ -57,21 +57,6 @@ bool is_implausible(const ImuSample& sample) {
   return sample.gyro.norm() > kMax || sample.accel.norm() > kMax;
 }
 
-/// Whether `reading` is off both `a` and `b`, two neighbours that agree, in one of its parts.
-bool jumps(const ImuSample& reading, const ImuSample& a, const ImuSample& b) {
-  constexpr double kMinGyroJump = 10.0;   // [rad/s]
-  constexpr double kMinAccelJump = 30.0;  // [m/s^2]
-  constexpr double kFactor = 8.0;
-  const auto is_off = [](const auto& x, const auto& y, const auto& z, double min_jump) {
-    const double jump = std::min((x - y).norm(), (x - z).norm());
-    return jump > std::max(min_jump, kFactor * (y - z).norm());
-  };
-  return is_off(reading.gyro, a.gyro, b.gyro, kMinGyroJump) ||
-         is_off(reading.accel, a.accel, b.accel, kMinAccelJump);
-}
-
-constexpr double kMaxDuration = 0.1;  // over which neighbours tell a spike [s]
-
 }  // namespace
 
 ImuSample interpolate(const ImuSample& a, const ImuSample& b, double time) {
@@ -99,37 +84,71 @@ void ImuBuffer::add(const ImuSample& sample) {
   }
   if (place != samples_.end()) {
     samples_.insert(place, sample);
+    ++stats_.accepted;
+  } else if (!doubtful_.empty() && sample.time <= doubtful_.back().time) {
+    ++stats_.implausible;  // amid readings that are
   } else {
     append(sample);
   }
-  ++stats_.accepted;
 }
 
+// Readings that leap away are a spike when they leap back, and a jolt when they last, unless no
+// jolt reaches them.
 void ImuBuffer::append(const ImuSample& sample) {
-  const std::size_t size = samples_.size();
-  const bool has_neighbors = size >= 2 && sample.time - samples_[size - 2].time <= kMaxDuration;
-  if (has_neighbors && jumps(samples_[size - 1], samples_[size - 2], sample)) {
-    samples_.pop_back();  // one bad reading, no jolt
-    ++stats_.implausible;
-    --stats_.accepted;
+  constexpr double kLongestSpike = 0.1;  // [s]
+  const bool is_off = outliers_.is_off(sample);
+  outliers_.note(sample);
+  if (!is_off) {
+    drop_doubtful(sample.time);
+    accept(sample);
+    return;
   }
+  doubtful_.push_back(sample);
+  if (sample.time - samples_.back().time <= kLongestSpike) {
+    return;
+  }
+  if (outliers_.is_nonsense(sample)) {
+    drop_doubtful(sample.time);
+    return;
+  }
+  for (const ImuSample& doubtful : doubtful_) {
+    accept(doubtful);
+  }
+  doubtful_.clear();
+}
+
+void ImuBuffer::drop_doubtful(double now) {
+  if (doubtful_.empty()) {
+    return;
+  }
+  const double begin = samples_.back().time;
+  const bool goes_on = !doubts_.empty() && doubts_.back().begin == begin;
+  if (goes_on) {
+    doubts_.back().end = now;
+  } else if (doubtful_.size() > 1) {
+    doubts_.push_back({begin, now});
+  }
+  if (now - begin > stats_.longest_outage) {
+    stats_.longest_outage = now - begin;
+    stats_.outage_begin = begin;
+  }
+  stats_.implausible += doubtful_.size();
+  doubtful_.clear();
+}
+
+bool ImuBuffer::is_doubtful(double begin, double end) const {
+  return std::any_of(doubts_.begin(), doubts_.end(), [&](const Span& doubt) {
+    return doubt.begin < end && begin < doubt.end;
+  });
+}
+
+void ImuBuffer::accept(const ImuSample& sample) {
   if (!samples_.empty()) {
     note_interval(sample.time - samples_.back().time);
   }
+  outliers_.add_good(sample);
   samples_.push_back(sample);
-}
-
-// A jolt begins like a spike: which it is, only the next reading tells. Until then the one before
-// holds.
-bool ImuBuffer::is_last_doubtful() const {
-  const std::size_t size = samples_.size();
-  if (size < 2) {
-    return false;
-  }
-  const ImuSample& before = samples_[size - 2];
-  const ImuSample& earlier = size >= 3 ? samples_[size - 3] : before;
-  return samples_.back().time - earlier.time <= kMaxDuration &&
-         jumps(samples_.back(), earlier, before);
+  ++stats_.accepted;
 }
 
 void ImuBuffer::note_interval(double interval) {
@@ -156,7 +175,7 @@ void ImuBuffer::between(
   if (samples_.empty() || !(begin < end)) {
     return;
   }
-  const Samples samples = {samples_.begin(), samples_.end() - (is_last_doubtful() ? 1 : 0)};
+  const Samples samples = {samples_.begin(), samples_.end()};
   if (const auto border = sample_at(samples, begin, max_gap)) {
     out.push_back(*border);
   }
@@ -171,10 +190,12 @@ void ImuBuffer::between(
 }
 
 void ImuBuffer::use_until(double time) {
-  constexpr std::size_t kKept = 3;  // at or before `time`: they tell whether the last is a spike
   used_until_ = std::max(used_until_, time);
-  while (samples_.size() > kKept && samples_[kKept].time <= time) {
+  while (samples_.size() > 1 && samples_[1].time <= time) {
     samples_.pop_front();
+  }
+  while (!doubts_.empty() && doubts_.front().end < time) {
+    doubts_.pop_front();
   }
 }
 

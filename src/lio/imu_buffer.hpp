@@ -6,6 +6,7 @@
 #include <deque>
 #include <vector>
 
+#include "lio/imu_outliers.hpp"
 #include "lio/sensor_data.hpp"
 
 namespace nvm::lio {
@@ -16,8 +17,10 @@ struct ImuBufferStats {
   std::size_t late = 0;        ///< older than what was already used, dropped
   std::size_t repeated = 0;    ///< same time as another reading, dropped
   std::size_t non_finite = 0;  ///< NaN or inf, dropped
-  /// Beyond what an IMU measures, or single readings far off both their neighbours, dropped.
-  std::size_t implausible = 0;
+  std::size_t implausible =
+      0;  ///< beyond what an IMU measures, or off as ImuOutliers says, dropped
+  /// The longest time without good readings that those took [s], and when it began.
+  double longest_outage = 0.0, outage_begin = 0.0;
 };
 
 /// The recent IMU readings in order of time. Readings may arrive out of order as long as the time
@@ -29,15 +32,16 @@ class ImuBuffer {
   /// The readings that describe the motion from `begin` to `end` [s]: those in between, and one at
   /// each border, interpolated between its two neighbours. A border without a neighbour on one side
   /// repeats the nearest reading when that is at most `max_gap` [s] away, and is left out
-  /// otherwise. The last reading of all is left out while it may be a spike. Replaces `out`,
-  /// ascending by time.
+  /// otherwise. Readings that are off are left out; such as may yet turn out to be a jolt, until
+  /// they do. Replaces `out`, ascending by time.
   void between(double begin, double end, double max_gap, std::vector<ImuSample>& out) const;
 
   /// Forgets all but a few readings before `time` [s], and refuses such from now on.
   void use_until(double time);
 
-  /// True when a reading at or after `time` [s] has arrived.
-  bool covers(double time) const { return !samples_.empty() && samples_.back().time >= time; }
+  /// Whether two or more readings on end have been left out between `begin` and `end` [s]: they may
+  /// have been a jolt.
+  bool is_doubtful(double begin, double end) const;
 
   /// Typical time between the readings of late [s]: their median, 0 before the second.
   double interval() const;
@@ -46,10 +50,18 @@ class ImuBuffer {
 
  private:
   void append(const ImuSample& sample);
-  bool is_last_doubtful() const;
+  void accept(const ImuSample& sample);
+  void drop_doubtful(double now);
   void note_interval(double interval);
 
+  struct Span {
+    double begin, end;  ///< [s]
+  };
+
   std::deque<ImuSample> samples_;
+  ImuOutliers outliers_;
+  std::vector<ImuSample> doubtful_;  ///< after all samples: off, so far
+  std::deque<Span> doubts_;          ///< where is_doubtful()
   double used_until_ = -1e300;
   std::deque<double> intervals_;  ///< of late [s]
   ImuBufferStats stats_;

@@ -81,4 +81,23 @@ std::string clipping_finding(
       100.0 * axis.share);
 }
 
+std::string left_out_finding(const ImuBufferStats& stats) {
+  const std::size_t count = stats.non_finite + stats.implausible;
+  if (count == 0) {
+    return "";
+  }
+  const std::string longest = stats.longest_outage > 0.0
+                                  ? printed(
+                                        "; the longest such time is %.3f s at t = %.3f s",
+                                        stats.longest_outage,
+                                        stats.outage_begin)
+                                  : "";
+  return printed(
+      "%zu IMU readings are left out: they are not finite, beyond any IMU, or leap away, fall to "
+      "zero or stand still as no motion does%s. The motion is bridged there; look at the IMU's "
+      "cable and driver",
+      count,
+      longest.c_str());
+}
+
 }  // namespace nvm::lio

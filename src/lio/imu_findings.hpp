@@ -5,13 +5,14 @@
 #include <cstddef>
 #include <string>
 
+#include "lio/imu_buffer.hpp"
 #include "lio/imu_clipping.hpp"
 #include "lio/turn_comparison.hpp"
 #include "nvm/geometry/pose.hpp"
 
 namespace nvm::lio {
 
-// What an ImuJudge says, a line each: what was seen, what it usually means, what mends it.
+// What is said of an IMU, a line each: what was seen, what it usually means, what mends it.
 
 /// `T_body_lidar` is the extrinsic that the poses take for granted.
 std::string rotation_finding(const TurnComparison& turns, const Pose& T_body_lidar);
@@ -31,5 +32,8 @@ std::string contradiction_finding(std::size_t times, bool still);
 /// `scale` makes `unit` of the readings.
 std::string clipping_finding(
     const char* sensor, const char* unit, const ImuClipping::Axis& axis, double scale);
+
+/// Of readings that were left out; empty without any.
+std::string left_out_finding(const ImuBufferStats& stats);
 
 }  // namespace nvm::lio

@@ -136,7 +136,8 @@ void InertialPipeline::predict(double until) {
       continue;
     }
     const ImuSample* previous = &next == samples_.data() ? nullptr : &next - 1;
-    const bool bridged = previous && next.time - previous->time <= max_gap;
+    const bool bridged = previous && next.time - previous->time <= max_gap &&
+                         !imu_.is_doubtful(previous->time, next.time);
     if (bridged) {
       segments_.push_back(filter_->predict(*previous, next));
     } else {

@@ -187,12 +187,7 @@ std::vector<std::string> InertialPipeline::findings() const {
   std::vector<std::string> findings = judge_.summary();
   const std::string doubt = judge_.findings().empty() ? why_left() : "";
   const std::string misled = findings.empty() && doubt.empty() ? predictions_.finding() : "";
-  const std::size_t bad = imu_.stats().non_finite + imu_.stats().implausible;
-  const std::string left_out =
-      bad == 0 ? ""
-               : std::to_string(bad) +
-                     " IMU readings are left out: they are not finite, beyond any IMU, or spikes";
-  for (const std::string& line : {doubt, misled, left_out}) {
+  for (const std::string& line : {doubt, misled, left_out_finding(imu_.stats())}) {
     if (!line.empty()) {
       findings.push_back(line);
     }
