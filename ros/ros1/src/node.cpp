@@ -13,6 +13,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -118,6 +119,7 @@ void Node::run_offline() {
   }
   end();
   if (odometry_) {
+    tell_findings(std::numeric_limits<double>::infinity());
     outputs_.publish_all(odometry_->pipeline());
   }
   report();

@@ -16,6 +16,7 @@
 #include <thread>
 #include <vector>
 
+#include "finding_watch.hpp"
 #include "frames.hpp"
 #include "io/message_source.hpp"
 #include "io/scan_converter.hpp"
@@ -58,6 +59,7 @@ class Node {
   void find_frames_once(const std::string& lidar_frame, std::unique_lock<std::mutex>& lock);
   void begin_anew(const std::string& reason);
   void tell(const nvm::lio::FrameResult& frame, const RawCloud& cloud);
+  void tell_findings(double time);
   void look_at_clocks(const nvm::lio::Scan& scan, bool has_readings);
 
   void report();
@@ -89,6 +91,7 @@ class Node {
   std::unique_ptr<Odometry> odometry_;
   Outputs outputs_;
   Statistics statistics_;
+  FindingWatch finding_watch_;
   std::optional<nvm::lio::FrameStatus> told_;
   std::size_t poses_ = 0;
   std::size_t reported_clouds_ = 0;

@@ -34,6 +34,7 @@ void Node::learn() {
     try {
       nvm::io::CloudMessage cloud = nvm::io::read_cloud(raw.message);
       cloud.record_time = raw.record_time;
+      cloud.records.source = topics_.lidar;
       clouds.push_back(std::move(cloud));
     } catch (const std::exception&) {
       continue;  // try_to_process() tells it
@@ -87,6 +88,7 @@ void Node::process(const RawCloud& cloud) {
   const nvm::lio::FrameResult frame = odometry_->process(*readings, scan);
   outputs_.publish(frame, odometry_->pipeline(), *frames_);
   tell(frame, cloud);
+  tell_findings(frame.time);
 }
 
 // Leaves the mutex to others while it waits for TF.
@@ -121,6 +123,7 @@ void Node::begin_anew(const std::string& reason) {
   odometry_.reset();
   outputs_.reset();
   told_.reset();
+  finding_watch_ = {};
   statistics_.count_reset();
 }
 
@@ -136,6 +139,19 @@ void Node::tell(const nvm::lio::FrameResult& frame, const RawCloud& cloud) {
     ROS_INFO("%s: pose of %s in %s", status, frames_->base.c_str(), options_.odom_frame.c_str());
   } else {
     ROS_WARN("%s at %.3f s: %s", status, frame.time, frame.message.c_str());
+  }
+}
+
+// The first note only tells how points are dated, when they are.
+void Node::tell_findings(double time) {
+  std::vector<std::string> findings = odometry_->pipeline().findings();
+  const std::vector<std::string> notes = converter_.notes();
+  const bool is_dated = converter_.times().base != nvm::io::PointTimes::Base::kNone;
+  findings.insert(
+      findings.end(), notes.begin() + (is_dated && !notes.empty() ? 1 : 0), notes.end());
+  for (const std::string& finding : finding_watch_.new_ones(time, findings)) {
+    ROS_WARN("%s", finding.c_str());
+    statistics_.note(finding, true);
   }
 }
 

@@ -21,6 +21,7 @@ from std_srvs.srv import Trigger
 
 from . import messages
 from .clouds import CloudReader, cloud_message
+from .finding_watch import FindingWatch
 from .frames import TransformBroadcaster, Transforms
 from .options import input_options, split
 from .sensor_queue import SensorQueue
@@ -139,6 +140,8 @@ class OdometryNode(Node):
             frame = self._odometry.register(points, times)
             self._counts["scans"] += 1
             self._publish(frame)
+            for finding in self._findings.new_ones(end, self._odometry.findings()):
+                self.get_logger().warning(finding)
             self._latencies.append(time.monotonic() - arrival)
 
     def _start(self, lidar_frame: str) -> bool:
@@ -170,7 +173,7 @@ class OdometryNode(Node):
     def _reset(self) -> None:
         self._odometry = self._frames = self._scale = self._last = None
         self._imu_frame = getattr(self, "_imu_frame", None)
-        self._undecided, self._poses = [], []
+        self._undecided, self._poses, self._findings = [], [], FindingWatch()
         self._next_map = self._next_path = 0.0
 
     def _begin_anew(self, reason: str) -> None:
@@ -224,6 +227,7 @@ class OdometryNode(Node):
         self._reported_drops = counts["dropped"]
         latencies, self._latencies = self._latencies, []
         status = self._last.status if self._last else "none"
+        notes = [*(self._frames.notes if self._frames else []), *self._findings.said.values()]
         level = messages.LEVELS.get(status, DiagnosticStatus.WARN)
         text = self._last.message if self._last else self._why_nothing(counts)
         if self._queue.imu_is_silent:
@@ -233,12 +237,13 @@ class OdometryNode(Node):
             self.get_logger().warning(text, throttle_duration_sec=5.0)
         elif level == DiagnosticStatus.OK and self._bad:
             level, text, self._bad = DiagnosticStatus.WARN, f"a scan is left out: {self._bad}", ""
-        elif level == DiagnosticStatus.OK and self._frames and self._frames.notes:
-            level, text = DiagnosticStatus.WARN, self._frames.notes[0]
+        elif level == DiagnosticStatus.OK and notes:
+            level, text = DiagnosticStatus.WARN, notes[0]
         values = {"status": status, **self._counts, "scans dropped": counts["dropped"]}
         values |= {"IMU readings": counts["imu"], "IMU readings left out": counts["bad imu"]}
         values["latency, mean [ms]"] = f"{1e3 * np.mean(latencies):.1f}" if latencies else ""
         values["latency, max [ms]"] = f"{1e3 * max(latencies):.1f}" if latencies else ""
+        values |= {f"note {i}": note for i, note in enumerate(notes, 1)}
         stamp = self.get_clock().now().to_msg()
         self._status_out.publish(messages.status_message(stamp, status, text, level, values))
 

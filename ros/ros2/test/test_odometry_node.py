@@ -17,6 +17,7 @@ import rclpy
 from diagnostic_msgs.msg import DiagnosticArray
 from nav_msgs.msg import Odometry
 from nvm_ros.clouds import CloudReader, cloud_message, likely_unit
+from nvm_ros.finding_watch import FindingWatch
 from nvm_ros.messages import stamp_of
 from nvm_ros.odometry_node import HAVE_POSE, OdometryNode
 from nvm_ros.options import Options, input_options, split
@@ -212,6 +213,29 @@ def test_refuses_a_cloud_that_is_shorter_than_it_says():
     cloud.width = 6
     with pytest.raises(ValueError, match="fewer data"):
         CloudReader().read(cloud)
+
+
+def test_findings_are_said_once_whatever_their_numbers():
+    watch = FindingWatch()
+    assert watch.new_ones(0.0, ["the clock is 12 ms late"]) == []
+    assert watch.new_ones(5.0, ["the clock is 9.5 ms late", "a"]) == ["the clock is 9.5 ms late"]
+    assert watch.new_ones(8.0, ["the clock is 3 ms late"]) == []
+    assert watch.new_ones(20.0, ["a"]) == [], "what did not last is not said"
+
+
+@needs_sequence
+def test_tells_what_is_wrong_with_the_imu(world):
+    bench, start = world
+    start(queue_size=1000, imu_timeout=20.0)
+    messages = recording()
+    for _, message in messages:
+        if isinstance(message, Imu):
+            a = message.linear_acceleration
+            a.x, a.y, a.z = a.x * 0.1, a.y * 0.1, a.z * 0.1
+    wait_until(lambda: bench.clouds.get_subscription_count() and bench.imu.get_subscription_count())
+    bench.publish(messages, pause=0.05)
+    said = "accelerometer feels"
+    wait_until(lambda: any(said in v.value for s in bench.states for v in s.status[0].values))
 
 
 def test_the_queue_drops_the_oldest_and_begins_anew():
