@@ -32,24 +32,6 @@ bool fits_well(const MatchResult& match, std::size_t keypoints) {
 
 }  // namespace
 
-const char* name(FrameStatus status) {
-  switch (status) {
-    case FrameStatus::kInitializing:
-      return "initializing";
-    case FrameStatus::kTracking:
-      return "tracking";
-    case FrameStatus::kDegenerate:
-      return "degenerate";
-    case FrameStatus::kWeak:
-      return "weak";
-    case FrameStatus::kLost:
-      return "lost";
-    case FrameStatus::kSkipped:
-      return "skipped";
-  }
-  return "unknown";
-}
-
 InertialPipeline::InertialPipeline(
     const InertialOptions& options,
     std::unique_ptr<ScanMatcher> matcher,
