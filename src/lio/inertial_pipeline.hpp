@@ -58,8 +58,9 @@ struct InertialOptions {
 /// match, and insert what was believed. The ScanMatcher makes it FAST-LIO style or CT-LIO style.
 ///
 /// While the IMU cannot be used the scans go their way alone, in the same map: at a start in
-/// motion, before its readings begin, after the pose was lost, and for good when an ImuJudge finds
-/// that it contradicts them. It joins, and joins again, once both tell the same motion.
+/// motion, before its readings begin, after the pose was lost, where a scan lies elsewhere than it
+/// led the pose, and for good when an ImuJudge finds that it contradicts them. It joins, and joins
+/// again, once both tell the same motion.
 class InertialPipeline final : public Pipeline {
  public:
   InertialPipeline(
