@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "io/cloud_stream.hpp"
 #include "io/file.hpp"
 #include "io/imu_file.hpp"
 #include "io/imu_gap_monitor.hpp"
@@ -128,9 +129,12 @@ class MessageSequence : public SequenceReader {
   std::vector<CloudMessage> first_clouds(const std::string& topic) {
     constexpr std::size_t kCount = 20;
     std::vector<CloudMessage> clouds;
+    CloudStream stream;
     for (const RecordedMessage& message : source_->first(topic, kCount)) {
       try {
-        clouds.push_back(read_cloud(message));
+        CloudMessage cloud = read_cloud(message);
+        stream.check(cloud, message.record_time);
+        clouds.push_back(std::move(cloud));
       } catch (const std::runtime_error&) {
         continue;  // advance() counts it
       }
@@ -178,6 +182,7 @@ class MessageSequence : public SequenceReader {
 
   void take_cloud(const RecordedMessage& message) {
     const CloudMessage cloud = read_cloud(message);
+    stream_.check(cloud, message.record_time);
     const auto stamp = clocks_.cloud.date({cloud.stamp, message.record_time});
     if (!stamp) {
       refuse_time(cloud.stamp);
@@ -213,6 +218,7 @@ class MessageSequence : public SequenceReader {
   std::unique_ptr<MessageSource> source_;
   mutable SequenceInfo info_;
   std::size_t fixed_notes_ = 0;  ///< the notes before those that change while reading
+  CloudStream stream_;
   ScanConverter converter_;
   Clocks clocks_;
   LeftOut bad_clouds_{"clouds are"};

@@ -8,6 +8,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "io/byte_cursor.hpp"
@@ -16,13 +17,12 @@
 namespace nvm::io {
 namespace {
 
-/// The stamp [s] of a std_msgs/Header.
-double header(ByteCursor& cursor) {
+/// The stamp [s] of a std_msgs/Header, and its frame_id.
+std::pair<double, std::string_view> header(ByteCursor& cursor) {
   cursor.next<std::uint32_t>();  // seq
   const auto seconds = cursor.next<std::uint32_t>();
   const auto nanoseconds = cursor.next<std::uint32_t>();
-  cursor.sized_block();  // frame_id
-  return seconds + 1e-9 * nanoseconds;
+  return {seconds + 1e-9 * nanoseconds, cursor.sized_block()};
 }
 
 Eigen::Vector3d vector(ByteCursor& cursor) {
@@ -84,7 +84,7 @@ CloudMessage read_point_cloud2(std::string_view bytes) {
   ByteCursor cursor(bytes);
   CloudMessage message;
   PointRecords& records = message.records;
-  message.stamp = header(cursor);
+  std::tie(message.stamp, message.frame) = header(cursor);
   const std::size_t height = cursor.next<std::uint32_t>();
   const std::size_t width = cursor.next<std::uint32_t>();
   records.source = "PointCloud2";
@@ -122,7 +122,7 @@ PointRecords livox_records() {
 CloudMessage read_livox_custom(std::string_view bytes) {
   ByteCursor cursor(bytes);
   CloudMessage message;
-  message.stamp = header(cursor);
+  std::tie(message.stamp, message.frame) = header(cursor);
   cursor.next<std::uint64_t>();  // timebase: the stamp in ns
   cursor.next<std::uint32_t>();  // point_num: said again by the array
   cursor.block(4);               // lidar_id, rsvd
@@ -136,7 +136,7 @@ lio::ImuSample read_imu(std::string_view bytes) {
   constexpr std::size_t kCovariance = 9 * sizeof(double);
   ByteCursor cursor(bytes);
   lio::ImuSample sample;
-  sample.time = header(cursor);
+  sample.time = header(cursor).first;
   cursor.block(4 * sizeof(double) + kCovariance);  // orientation
   sample.gyro = vector(cursor);
   cursor.block(kCovariance);

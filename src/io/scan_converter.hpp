@@ -19,6 +19,7 @@ struct CloudMessage {
   double stamp = 0.0;  ///< [s]
   PointRecords records;
   double record_time = std::numeric_limits<double>::quiet_NaN();  ///< [s]; NaN: unknown
+  std::string frame = {};                                         ///< the header's frame_id
 };
 
 /// Turns point records into scans. Keeps what it learnt of their times for the scans to come.
