@@ -8,7 +8,7 @@ rm -rf "$folder" && mkdir -p "$folder"
 python3 -m venv "$folder/venv"
 python="$PWD/$folder/venv/bin/python"
 "$python" -m pip install --quiet build/python/nvm-*.whl --requirement ros/ros2/requirements.txt
-build/dev/bin/nvm simulate wall5 --sensor mid360 --duration 5 --out "$folder/sequence"
+build/dev/bin/nvm simulate wall5 --sensor mid360 --duration 8 --out "$folder/sequence"
 export NVM_SEQUENCE="$PWD/$folder/sequence" ROS_LOCALHOST_ONLY=1 ROS_DOMAIN_ID=$((1 + $$ % 100)) ROS_LOG_DIR="$PWD/$folder/log"
 cd ros/ros2
 PYTHONPATH=. "$python" -m pytest -q -p no:warnings test

@@ -231,7 +231,7 @@ def test_tells_what_is_wrong_with_the_imu(world):
     for _, message in messages:
         if isinstance(message, Imu):
             a = message.linear_acceleration
-            a.x, a.y, a.z = a.x * 0.1, a.y * 0.1, a.z * 0.1
+            a.x, a.y, a.z = a.x * 0.3, a.y * 0.3, a.z * 0.3
     wait_until(lambda: bench.clouds.get_subscription_count() and bench.imu.get_subscription_count())
     bench.publish(messages, pause=0.05)
     said = "accelerometer feels"
