@@ -33,14 +33,16 @@ Covariance6 covariance_of(const AlignResult& aligned, const Pose& T_body_lidar) 
 }
 
 void describe_prediction(const NavState& predicted, double duration, FrameResult& result) {
-  constexpr double kDoubt = 1.0;  // of a predicted velocity [m/s] and turn rate [rad/s]
+  constexpr double kDoubt = 1.0;       // of a predicted velocity [m/s] and turn rate [rad/s]
+  constexpr double kLongest = 1000.0;  // clocks may leap by anything [s]
   result.velocity = predicted.velocity;
   result.angular_rate = -predicted.gyro_bias;
   if (duration <= 0.0) {
     return;
   }
   if (result.pose_covariance.isZero(0.0)) {
-    result.pose_covariance.diagonal().setConstant(kDoubt * kDoubt * duration * duration);
+    const double doubt = kDoubt * std::min(duration, kLongest);
+    result.pose_covariance.diagonal().setConstant(doubt * doubt);
   }
   // The difference of two poses that are about as sure as each other.
   Matrix6 to_twist = Matrix6::Identity();
