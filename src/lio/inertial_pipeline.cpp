@@ -192,7 +192,7 @@ void InertialPipeline::match(FrameResult& result) {
     find_again();
   }
   const MatchResult match = matcher_->match(*map_, prepared_, *filter_);
-  predictions_.add(predicted, *filter_, match.inlier_share);
+  predictions_.add(predicted, *filter_, match.inlier_share, imu_.interval());
   result.residuals = match.residuals;
   result.residual_rms = match.residual_rms;
   result.inlier_share = match.inlier_share;

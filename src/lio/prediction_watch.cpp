@@ -10,22 +10,27 @@
 namespace nvm::lio {
 
 void PredictionWatch::add(
-    const ErrorStateFilter& predicted, const ErrorStateFilter& corrected, double inlier_share) {
+    const ErrorStateFilter& predicted,
+    const ErrorStateFilter& corrected,
+    double inlier_share,
+    double imu_interval) {
   // Standard deviations: with good IMUs none reaches two. At the edge of the map scans fit badly
   // without being corrected.
   constexpr double kUnlikely = 3.0;
   constexpr double kDoubtful = 1.0;
   constexpr double kBadFit = 0.9;  // of the usual share
   constexpr double kMemory = 0.1;  // weight of the newest share
+  constexpr double kMissed = 4.0;  // between the readings of a slow IMU [m/s^2]
   const double usual_share = usual_share_.value_or(inlier_share);
   const double correction =
       (corrected.state().T_world_body.translation() - predicted.state().T_world_body.translation())
           .norm();
   const double deviation =
       std::sqrt(predicted.covariance().block<3, 3>(kPosition, kPosition).trace());
-  const bool is_unlikely = correction > kUnlikely * deviation;
-  is_doubtful_ =
-      is_unlikely || (correction > kDoubtful * deviation && inlier_share < kBadFit * usual_share);
+  const double missed = kMissed * imu_interval * imu_interval;
+  const bool is_unlikely = correction > kUnlikely * deviation + missed;
+  is_doubtful_ = is_unlikely || (correction > kDoubtful * deviation + missed &&
+                                 inlier_share < kBadFit * usual_share);
   usual_share_ = usual_share + kMemory * (inlier_share - usual_share);
   ++count_;
   if (is_unlikely) {

@@ -16,9 +16,13 @@ namespace nvm::lio {
 /// usual.
 class PredictionWatch {
  public:
-  /// The filter before and after the correction by a scan of which `inlier_share` fits, 0 to 1.
+  /// The filter before and after the correction by a scan of which `inlier_share` fits, 0 to 1;
+  /// `imu_interval` lies between readings [s].
   void add(
-      const ErrorStateFilter& predicted, const ErrorStateFilter& corrected, double inlier_share);
+      const ErrorStateFilter& predicted,
+      const ErrorStateFilter& corrected,
+      double inlier_share,
+      double imu_interval);
 
   /// Whether the prediction may have led the last scan astray.
   bool is_doubtful() const { return is_doubtful_; }
