@@ -84,6 +84,12 @@ class Odometry {
     has_imu_ = has_imu_ || !samples.empty();
   }
 
+  double imu_needed_until(double time) const {
+    const nb::gil_scoped_release no_gil;
+    const std::lock_guard lock(mutex_);
+    return pipeline_->imu_needed_until(time);
+  }
+
   lio::FrameResult add_scan(const lio::Scan& scan) {
     const nb::gil_scoped_release no_gil;
     const std::lock_guard lock(mutex_);
@@ -215,6 +221,7 @@ void bind_odometry(nb::module_& module) {
           "gyro"_a.none(),
           "accel"_a.none(),
           kAddImuDoc)
+      .def("imu_needed_until", &Odometry::imu_needed_until, "time"_a, kImuNeededDoc)
       .def(
           "register",
           [](Odometry& self,

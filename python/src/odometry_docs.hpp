@@ -23,7 +23,7 @@ ValueError
 
 inline constexpr char kAddImuDoc[] = R"(Take readings of the IMU: one, or N at once.
 
-All readings up to a scan's end must come before that scan.
+All readings up to a scan's end, as `imu_needed_until` says it, must come before that scan.
 
 Parameters
 ----------
@@ -40,6 +40,19 @@ ValueError
     For numbers that are not finite; no reading is taken then.
 RuntimeError
     For the first reading after the first scan, unless ``pipeline`` is set.)";
+
+inline constexpr char kImuNeededDoc[] = R"(Until when readings are needed before a scan.
+
+Parameters
+----------
+time : float
+    The scan's end [s].
+
+Returns
+-------
+float
+    The same by the clock that stamps the readings [s], as far as its offset
+    is known by now: given as ``imu.time_offset``, or learned.)";
 
 inline constexpr char kRegisterDoc[] = R"(Take the next scan, in order of time.
 

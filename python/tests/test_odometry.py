@@ -102,6 +102,11 @@ def test_with_an_imu_at_rest(rng):
     assert odometry.map.options["voxel_size"] == 0.25
 
 
+def test_the_clock_of_the_imu_tells_which_readings_a_scan_needs():
+    assert nvm.Odometry().imu_needed_until(5.0) == 5.0
+    assert nvm.Odometry({"imu.time_offset": -0.25}).imu_needed_until(5.0) == 5.25
+
+
 def test_readings_after_the_first_scan_are_refused_rather_than_ignored(rng):
     odometry = nvm.Odometry()
     odometry.register(*next(walk(rng)))

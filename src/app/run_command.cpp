@@ -50,12 +50,9 @@ using ScanProcess = std::function<lio::FrameResult(const lio::Scan&)>;
 
 /// Gives `pipeline` a scan and the readings of the IMU until then, and `session` what came of it.
 ScanProcess scan_process(
-    io::SequenceReader& reader,
-    double imu_time_offset,
-    lio::Pipeline& pipeline,
-    SessionRecorder& session) {
-  return [&, imu_time_offset](const lio::Scan& scan) {
-    for (const lio::ImuSample& sample : reader.imu_until(scan.t_end - imu_time_offset)) {
+    io::SequenceReader& reader, lio::Pipeline& pipeline, SessionRecorder& session) {
+  return [&](const lio::Scan& scan) {
+    for (const lio::ImuSample& sample : reader.imu_until(pipeline.imu_needed_until(scan.t_end))) {
       pipeline.add_imu(sample);
     }
     lio::FrameResult frame = pipeline.process(scan);
@@ -97,10 +94,9 @@ void run(const RunArguments& arguments, RunOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   RunSummary summary(options.pipeline.inertial.returns.max_count);
   SessionRecorder session(results.path(), pipeline->map());
-  const double imu_time_offset = options.pipeline.inertial.imu_input.time_offset;
   Ending ending = process(
       *reader,
-      scan_process(*reader, imu_time_offset, *pipeline, session),
+      scan_process(*reader, *pipeline, session),
       interruption,
       RunFiles(results.path(), origin),
       summary);

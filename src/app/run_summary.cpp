@@ -28,6 +28,7 @@ void RunSummary::note_pause(double time) {
 void RunSummary::add(const FrameResult& frame, std::size_t returns) {
   note_pause(frame.time);
   imu_noise_ = frame.imu_noise;
+  imu_time_offset_ = frame.imu_time_offset;
   ++frames_;
   if (frame.status != FrameStatus::kInitializing && frame.status != FrameStatus::kSkipped) {
     returns_ += std::min(returns, max_points_);
@@ -183,7 +184,10 @@ std::string RunSummary::timing_json(double wall_seconds) const {
   nlohmann::ordered_json json;
   json["scans"] = frames_;
   json["wall_seconds"] = wall_seconds;
-  json["imu"] = {{"gyro_noise", imu_noise_.gyro}, {"accel_noise", imu_noise_.accel}};
+  json["imu"] = {
+      {"gyro_noise", imu_noise_.gyro},
+      {"accel_noise", imu_noise_.accel},
+      {"time_offset", imu_time_offset_}};
   for (std::size_t i = 0; i < summaries_.size(); ++i) {
     const StageSummary& summary = summaries_[i];
     json["cpu"][stages()[i].key] = {

@@ -84,6 +84,7 @@ class RunSummary {
   double longest_pause_begin_ = 0.0;  ///< [s]
   std::size_t returns_ = 0;           ///< that would have been used within the limits of range
   InsertTotals inserted_;
+  double imu_time_offset_ = 0.0;                    ///< of the last frame [s]
   lio::ImuNoise imu_noise_ = {0.0, 0.0, 0.0, 0.0};  ///< of the last frame
   std::array<Trouble, 4> troubles_ = {
       {{lio::FrameStatus::kInitializing, "they have no pose"},

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "lio/imu_findings.hpp"
-#include "lio/printed.hpp"
 
 namespace nvm::lio {
 
@@ -65,42 +64,56 @@ Differences differences_at(
   return sums;
 }
 
+/// Of an offset [s] that shows, the poses may have hidden as much as half.
+double hidden_variance(double offset) { return 0.25 * offset * offset; }
+
 }  // namespace
 
-void ClockWatch::look(const MotionHistory& history, double begin) {
+bool ClockWatch::look(const MotionHistory& history, double begin) {
   constexpr std::size_t kMinCount = 10;  // of turns
-  constexpr double kMinChange = 5e-4;    // of the rate between turns, mean square [rad^2/s^2]
+  constexpr double kMinChange = 5e-3;    // of the rate between turns, squares added up [rad^2/s^2]
   constexpr double kMaxOffset = 0.1;     // [s]
   constexpr int kIterations = 4;
+  constexpr double kWander = 1e-4;         // of clocks, in a second [s]
+  constexpr double kLeastVariance = 1e-8;  // of a stretch [s^2]
   const std::vector<MotionHistory::Turn> turns = history.turns();
-  const Differences at_zero = differences_at(history, turns, begin, 0.0);
-  if (at_zero.count < kMinCount ||
-      at_zero.sq_change < kMinChange * static_cast<double>(at_zero.count)) {
-    return;
+  Differences there = differences_at(history, turns, begin, 0.0);
+  if (there.count < kMinCount || there.sq_change < kMinChange) {
+    return false;
   }
   double offset = 0.0;
-  Differences there = at_zero;
   for (int i = 0; i < kIterations && there.sq_change > 0.0; ++i) {
     offset = std::clamp(offset + there.both / there.sq_change, -kMaxOffset, kMaxOffset);
     there = differences_at(history, turns, begin, offset);
   }
-  if (there.count < kMinCount) {
-    return;
+  if (there.count < kMinCount || !(there.sq_change > 0.0)) {
+    return false;
   }
+  const double degrees_of_freedom = 3.0 * static_cast<double>(there.count) - 4.0;
+  const double variance =
+      kLeastVariance + there.sq_difference / degrees_of_freedom / there.sq_change;
   const double time = turns.back().end;
+  variance_ += kWander * kWander * std::max(0.0, time - time_);
+  time_ = time;
+  const double gain = variance_ / (variance_ + variance);
+  left_ += gain * (offset - left_);
+  variance_ *= 1.0 - gain;
+  note(time, mended_ + offset, variance + hidden_variance(offset));
+  return true;
+}
+
+void ClockWatch::note(double time, double offset, double variance) {
   first_ = w_ > 0.0 ? first_ : time;
-  last_ = time;
   const double t = time - first_;
-  const double weight = at_zero.sq_change;
+  const double weight = 1.0 / variance;
   w_ += weight;
   wt_ += weight * t;
   wo_ += weight * offset;
   wtt_ += weight * t * t;
   wto_ += weight * t * offset;
-  before_ += at_zero.sq_difference / static_cast<double>(at_zero.count);
-  after_ += there.sq_difference / static_cast<double>(there.count);
 }
 
+// Stretches before most of an offset was mended are unsure, and weigh little.
 ClockWatch::Line ClockWatch::fit() const {
   constexpr double kMinSpread = 5.0;  // of the stretches in time, to tell a drift [s]
   if (!(w_ > 0.0)) {
@@ -113,29 +126,33 @@ ClockWatch::Line ClockWatch::fit() const {
     return {mean, mean};
   }
   const double drift = (wto_ / w_ - mean_time * mean) / variance;
-  return {mean - drift * mean_time, mean + drift * (last_ - first_ - mean_time)};
+  return {mean - drift * mean_time, mean + drift * (time_ - first_ - mean_time)};
+}
+
+std::optional<double> ClockWatch::offset() const {
+  constexpr double kLeast = 5e-4;  // [s]
+  constexpr double kDeviations = 3.0;
+  const bool is_sure = std::abs(left_) > kDeviations * std::sqrt(variance_);
+  return is_sure && std::abs(left_) > kLeast ? std::optional<double>(left_) : std::nullopt;
+}
+
+void ClockWatch::mend(double offset) {
+  mended_ += offset;
+  left_ -= offset;
+  variance_ += hidden_variance(offset);
 }
 
 std::string ClockWatch::finding() const {
   constexpr double kLeast = 0.0025;      // [s]
-  constexpr double kExplained = 0.75;    // of the differences may be left
   constexpr double kLeastDrift = 0.004;  // over the run [s]
   const Line line = fit();
-  const bool is_off = std::max(std::abs(line.begin), std::abs(line.end)) > kLeast;
-  if (!is_off || after_ > kExplained * before_) {
-    return "";
+  if (mended_ != 0.0 && std::abs(line.end - line.begin) > kLeastDrift) {
+    return drift_finding(line.begin, line.end);
   }
-  const double mean = 0.5 * (line.begin + line.end);
-  if (std::abs(line.end - line.begin) > kLeastDrift) {
-    return printed(
-        "the IMU's clock drifts: it is %.0f ms late at first and %.0f ms in the end (negative: "
-        "early), or more, since the gyroscope turns when the scans do only then; let both sensors "
-        "have one clock (PTP, PPS)",
-        1e3 * line.begin,
-        1e3 * line.end);
+  if (std::abs(mended_) > kLeast) {
+    return mended_offset_finding(mended_);
   }
-  return offset_finding(mean) +
-         ", or more: poses lean on the IMU, so run again to see what is left";
+  return offset() && std::abs(left_) > kLeast ? offset_finding(left_) : "";
 }
 
 }  // namespace nvm::lio

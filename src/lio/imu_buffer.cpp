@@ -189,6 +189,20 @@ void ImuBuffer::between(
   }
 }
 
+void ImuBuffer::move(double by) {
+  for (ImuSample& sample : samples_) {
+    sample.time += by;
+  }
+  for (ImuSample& sample : doubtful_) {
+    sample.time += by;
+  }
+  for (Span& doubt : doubts_) {
+    doubt.begin += by;
+    doubt.end += by;
+  }
+  used_until_ += by;
+}
+
 void ImuBuffer::use_until(double time) {
   used_until_ = std::max(used_until_, time);
   while (samples_.size() > 1 && samples_[1].time <= time) {

@@ -39,6 +39,9 @@ class ImuBuffer {
   /// Forgets all but a few readings before `time` [s], and refuses such from now on.
   void use_until(double time);
 
+  /// Moves all readings, and what has been used of them, by a time [s].
+  void move(double by);
+
   /// Whether two or more readings on end have been left out between `begin` and `end` [s]: they may
   /// have been a jolt.
   bool is_doubtful(double begin, double end) const;

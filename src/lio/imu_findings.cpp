@@ -44,6 +44,24 @@ std::string offset_finding(double offset) {
       -offset);
 }
 
+std::string mended_offset_finding(double offset) {
+  return printed(
+      "the IMU's clock is %.1f ms %s, for the gyroscope turns then and the scans do not: its times "
+      "are mended (imu.time_offset=%.4f does so from the beginning, "
+      "imu.learn_time_offset=false leaves them)",
+      1e3 * std::abs(offset),
+      offset > 0.0 ? "late" : "early",
+      -offset);
+}
+
+std::string drift_finding(double first, double last) {
+  return printed(
+      "the IMU's clock drifts: it was %.0f ms late at first and %.0f ms in the end (negative: "
+      "early). Its times are mended; let both sensors have one clock (PTP, PPS)",
+      1e3 * first,
+      1e3 * last);
+}
+
 std::string gravity_finding(double felt, double gravity) {
   return printed(
       "the accelerometer feels %.2f m/s^2 of gravity, not %.2f: its driver removes gravity or "

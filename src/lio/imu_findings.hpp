@@ -19,6 +19,10 @@ std::string rotation_finding(const TurnComparison& turns, const Pose& T_body_lid
 
 /// `offset` [s] as in TurnComparison.
 std::string offset_finding(double offset);
+/// Of one that was mended.
+std::string mended_offset_finding(double offset);
+/// Of one that was `first` and `last` [s], and was mended.
+std::string drift_finding(double first, double last);
 
 /// `felt` and `gravity` [m/s^2].
 std::string gravity_finding(double felt, double gravity);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "nvm/core/require.hpp"
 
@@ -53,6 +54,21 @@ void tie_bias_to_gravity(InitialState& initial) {
   P -= HP.transpose() * S.inverse() * HP;
 }
 
+/// Sum of squares of the white noise that differences of readings tell: motion changes little from
+/// one to the next, when they follow each other quickly. Angular rates and specific forces.
+std::pair<double, double> white_noise(const std::vector<ImuSample>& readings) {
+  constexpr double kQuick = 0.0105;  // [s]
+  double sq_gyro = 0.0;
+  double sq_accel = 0.0;
+  for (std::size_t i = 1; i < readings.size(); ++i) {
+    if (readings[i].time - readings[i - 1].time <= kQuick) {
+      sq_gyro += 0.5 * (readings[i].gyro - readings[i - 1].gyro).squaredNorm();
+      sq_accel += 0.5 * (readings[i].accel - readings[i - 1].accel).squaredNorm();
+    }
+  }
+  return {sq_gyro, sq_accel};
+}
+
 }  // namespace
 
 Stillness judge_stillness(
@@ -66,11 +82,12 @@ Stillness judge_stillness(
   double sq_gyro = 0.0;
   double sq_accel = 0.0;
   for (const ImuSample& reading : readings) {
-    sq_gyro += share * (reading.gyro - s.mean_gyro).squaredNorm();
-    sq_accel += share * (reading.accel - s.mean_accel).squaredNorm();
+    sq_gyro += (reading.gyro - s.mean_gyro).squaredNorm();
+    sq_accel += (reading.accel - s.mean_accel).squaredNorm();
   }
-  s.gyro_deviation = std::sqrt(sq_gyro);
-  s.accel_deviation = std::sqrt(sq_accel);
+  const auto [white_gyro, white_accel] = white_noise(readings);
+  s.gyro_deviation = std::sqrt(share * std::max(0.0, sq_gyro - white_gyro));
+  s.accel_deviation = std::sqrt(share * std::max(0.0, sq_accel - white_accel));
   s.still = s.gyro_deviation <= options.max_still_gyro &&
             s.accel_deviation <= options.max_still_accel &&
             s.mean_gyro.norm() <= options.max_still_rate;

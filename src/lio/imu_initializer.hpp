@@ -17,7 +17,8 @@ struct InitializerOptions {
   /// Time that the sensor must keep still [s], 0.2 to 10.
   double still_duration = 1.0;
   /// The sensor counts as still when the standard deviation of the angular rate [rad/s] and of the
-  /// specific force [m/s^2] stay below these, and its mean rate below max_still_rate.
+  /// specific force [m/s^2], without the IMU's white noise, stay below these, and its mean rate
+  /// below max_still_rate.
   double max_still_gyro = 0.03;
   double max_still_accel = 0.3;
   double max_still_rate = 0.05;  ///< [rad/s]
@@ -35,8 +36,8 @@ struct Stillness {
   bool still = false;
   Eigen::Vector3d mean_gyro = Eigen::Vector3d::Zero();   ///< [rad/s]
   Eigen::Vector3d mean_accel = Eigen::Vector3d::Zero();  ///< [m/s^2]
-  double gyro_deviation = 0.0;                           ///< [rad/s], of the vector
-  double accel_deviation = 0.0;                          ///< [m/s^2], of the vector
+  double gyro_deviation = 0.0;   ///< [rad/s], of the vector, without white noise
+  double accel_deviation = 0.0;  ///< [m/s^2], of the vector, without white noise
 };
 
 /// `readings` must not be empty.

@@ -2,47 +2,25 @@
 // Copyright (c) 2026 The nvm authors
 #include "lio/imu_judge.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "lio/imu_findings.hpp"
-#include "lio/printed.hpp"
-#include "nvm/core/require.hpp"
+#include "lio/is_about.hpp"
 
 namespace nvm::lio {
 
 namespace {
 
-constexpr double kDegree = 0.017453292519943295;  // [rad]
-constexpr double kStandardGravity = 9.80665;      // [m/s^2]
+constexpr double kStandardGravity = 9.80665;  // [m/s^2]
 
 /// Scans and accelerometer tell the same motion: poses this near to the fit [m], and gravity.
 constexpr double kMaxRms = 0.03;
 constexpr double kGravityError = 0.08;  // share
 
-bool is_about(double value, double expected, double share) {
-  return std::abs(value - expected) <= share * std::abs(expected);
-}
-
 bool is_final(ImuVerdict verdict) {
-  return verdict == ImuVerdict::kMended || verdict == ImuVerdict::kUnusable;
-}
-
-double angle_of(const Eigen::Matrix3d& rotation) { return so3_log(rotation).norm(); }
-
-/// Whether the gyroscope's scale alone is off, by more than the 1 or 2 % that gyroscopes are. What
-/// other clocks or axes leave unexplained is not.
-bool has_wrong_scale(const TurnComparison& turns) {
-  constexpr double kMinError = 0.04, kMaxError = 0.5;  // beyond are units
-  constexpr double kDeviations = 6.0;
-  constexpr double kMinTurned = 1.5;  // [rad]
-  constexpr double kMaxUnexplained = 0.01;
-  const double error = std::abs(turns.scale_of_changes - 1.0);
-  return turns.turned >= kMinTurned && turns.offset == 0.0 && error > kMinError &&
-         error < kMaxError && error > kDeviations * turns.scale_deviation &&
-         turns.unexplained_changes < kMaxUnexplained;
+  return verdict == ImuVerdict::kMended || verdict == ImuVerdict::kDoubtful ||
+         verdict == ImuVerdict::kUnusable;
 }
 
 }  // namespace
@@ -100,10 +78,10 @@ ImuVerdict ImuJudge::inspect(double time) {
     tell(clipping_finding("accelerometer", "m/s^2", *axis, accel_scale_));
     return ImuVerdict::kUnusable;
   }
+  look_at_clock(time);
   if (time < inspected_ + kPeriod || history_.duration() < kPeriod) {
     return ImuVerdict::kUnknown;
   }
-  clocks_.look(history_, std::max(inspected_, time - kPeriod));
   inspected_ = time;
   return weigh_rest(kPeriod);
 }
@@ -150,7 +128,7 @@ ImuVerdict ImuJudge::judge(double duration) {
   constexpr double kMaxMismatch = 0.06;  // a misalignment of 14 degrees
   constexpr double kUnturned = 6.0;      // [s]
   constexpr double kRounding = 0.01;     // [s]
-  const ImuVerdict turns = judge_turns(kMaxMismatch);
+  const ImuVerdict turns = judge_turns(kMaxMismatch, true);
   const ImuVerdict gravity = is_final(turns) ? turns : judge_gravity();
   const ImuVerdict sign = is_final(gravity) ? gravity : judge_sign(turns);
   if (is_final(sign)) {
@@ -164,72 +142,8 @@ ImuVerdict ImuJudge::judge(double duration) {
 
 ImuVerdict ImuJudge::watch() {
   constexpr double kMaxMismatch = 0.2;
-  const ImuVerdict turns = judge_turns(kMaxMismatch);
+  const ImuVerdict turns = judge_turns(kMaxMismatch, false);
   return is_final(turns) ? turns : judge_sign(turns);
-}
-
-ImuVerdict ImuJudge::judge_turns(double max_mismatch) {
-  constexpr double kAgrees = 0.1;
-  constexpr double kSmallTurn = 0.25;  // [rad]
-  const std::optional<TurnComparison> turns = compare_turns(history_);
-  if (!turns) {
-    return ImuVerdict::kUnknown;
-  }
-  const bool is_explained = turns->best_mismatch < kAgrees;
-  const bool is_turned = angle_of(turns->rotation) > kSmallTurn;
-  has_offset_ = turns->offset != 0.0 && is_explained;
-  if (has_offset_) {
-    tell(offset_finding(turns->offset));
-    tells_offset_ = true;
-  }
-  const bool may_mend = !is_turned && options_.gyro_scale == 0.0;
-  if (may_mend && has_wrong_scale(*turns)) {
-    const double scale = turns->scale_of_changes;
-    return mend_gyro(
-        scale,
-        printed(
-            "the gyroscope turns by %.1f %% too %s for the scans: multiplied by %.4g "
-            "(imu.gyro_scale sets another factor, or 1 for none)",
-            100.0 * std::abs(1.0 / scale - 1.0),
-            scale < 1.0 ? "much" : "little",
-            scale * gyro_scale_));
-  }
-  if (turns->mismatch <= max_mismatch) {
-    return ImuVerdict::kGood;
-  }
-  if (may_mend && is_explained && is_about(turns->scale, kDegree, 0.2)) {
-    return mend_gyro(
-        kDegree,
-        printed(
-            "the gyroscope turns %.1f times as fast as the scans, so it measures in degrees per "
-            "second: multiplied by 0.0174533 (imu.gyro_scale sets another factor)",
-            1.0 / turns->scale));
-  }
-  constexpr double kConclusive = 1.5;  // an offset of the clocks may yet explain it [rad]
-  if (turns->turned < kConclusive) {
-    return ImuVerdict::kUnknown;
-  }
-  tell_contradiction(*turns, is_explained && is_turned);
-  return ImuVerdict::kUnusable;
-}
-
-void ImuJudge::tell_contradiction(const TurnComparison& turns, bool is_turned) {
-  if (is_turned && is_about(turns.scale, 1.0, 0.2)) {
-    tell(rotation_finding(turns, T_body_lidar_));
-  } else if (!has_offset_) {
-    tell(printed(
-        "the gyroscope does not turn as the scans do (they differ by %.0f %% of %.1f rad): is "
-        "it this LiDAR's IMU, on its clock? The scans alone are used",
-        100.0 * std::sqrt(turns.mismatch),
-        turns.turned));
-  }
-}
-
-ImuVerdict ImuJudge::mend_gyro(double factor, std::string finding) {
-  gyro_scale_ *= factor;
-  history_.clear();
-  tell(std::move(finding));
-  return ImuVerdict::kMended;
 }
 
 ImuVerdict ImuJudge::judge_gravity() {
@@ -284,15 +198,6 @@ std::optional<MotionFit> ImuJudge::motion() const {
                       fit->position_rms <= kMaxRms &&
                       is_about(fit->gravity.norm(), gravity_, kGravityError);
   return agrees ? fit : std::nullopt;
-}
-
-void ImuInputOptions::validate() const {
-  const auto finite = [](double value, const char* name) {
-    require(std::isfinite(value), name, value, "a finite number");
-  };
-  finite(gyro_scale, "gyro_scale");
-  finite(accel_scale, "accel_scale");
-  finite(time_offset, "time_offset");
 }
 
 }  // namespace nvm::lio

@@ -9,6 +9,7 @@
 
 #include "lio/clock_watch.hpp"
 #include "lio/imu_clipping.hpp"
+#include "lio/imu_input_options.hpp"
 #include "lio/motion_fit.hpp"
 #include "lio/motion_history.hpp"
 #include "lio/rest_force.hpp"
@@ -16,23 +17,12 @@
 
 namespace nvm::lio {
 
-/// What to make of the IMU's numbers.
-struct ImuInputOptions {
-  /// Factors that make rad/s and m/s^2 of what the IMU sends: 0.0174533 for degrees per second,
-  /// 9.80665 for g, -1 where the sign is wrong. 0: found from the data.
-  double gyro_scale = 0.0;
-  double accel_scale = 0.0;
-  /// Added to the IMU's times [s]: negative where its clock is late.
-  double time_offset = 0.0;
-
-  void validate() const;
-};
-
 /// What the scans say of the IMU.
 enum class ImuVerdict {
   kUnknown,   ///< too little motion yet
   kGood,      ///< both tell the same motion
-  kMended,    ///< a unit or a sign has been mended: what was read before counts no more
+  kMended,    ///< a unit, sign or clock has been mended: what was read before counts no more
+  kDoubtful,  ///< they contradict each other, unless the IMU has led the poses: go on without it
   kUnusable,  ///< they contradict each other, for a reason that findings() tells
 };
 
@@ -61,6 +51,11 @@ class ImuJudge {
   /// Of ranges, clocks, and what the force at rest has left open, the last pose being of `time`
   /// [s]. Mended is nothing but the scale of the accelerations.
   ImuVerdict inspect(double time);
+  /// How late the IMU's clock was found to be since the last call [s]: its readings are to be moved
+  /// by the negative of it, those to come too. Zero if nothing was found.
+  double take_clock_offset();
+  /// All of it [s].
+  double clock_offset() const { return clocks_.mended(); }
   /// The motion at the last pose, once scans and accelerometer agree on it.
   std::optional<MotionFit> motion() const;
 
@@ -72,9 +67,11 @@ class ImuJudge {
  private:
   static constexpr int kUnitCount = 20;
 
-  ImuVerdict judge_turns(double max_mismatch);
+  ImuVerdict judge_turns(double max_mismatch, bool are_poses_apart);
   void tell_contradiction(const TurnComparison& turns, bool is_turned);
   ImuVerdict mend_gyro(double factor, std::string finding);
+  void look_at_clock(double time);
+  void mend_clock(double offset);
   ImuVerdict judge_gravity();
   ImuVerdict weigh_rest(double duration);
   ImuVerdict judge_sign(ImuVerdict turns);
@@ -94,7 +91,10 @@ class ImuJudge {
   ImuClipping gyro_clipping_, accel_clipping_;
   RestForce rest_;
   ClockWatch clocks_;
-  double inspected_ = -1e300;  ///< time of the last inspection [s]
+  double untaken_offset_ = 0.0;  ///< of the clock, for take_clock_offset() [s]
+  double clocked_ = -1e300;      ///< until then the turns have told of the clock [s]
+  double tried_clock_ = -1e300;  ///< when they were asked last [s]
+  double inspected_ = -1e300;    ///< time of the last inspection [s]
   std::vector<std::string> findings_;
 };
 

@@ -47,11 +47,12 @@ InertialPipeline::InertialPipeline(
       map_(std::move(map)),
       alone_(alone, map_, search_, executor),
       matcher_(std::move(matcher)),
-      min_first_keypoints_(alone.align.min_residuals) {}
+      min_first_keypoints_(alone.align.min_residuals),
+      imu_time_offset_(options.imu_input.time_offset) {}
 
 void InertialPipeline::add_imu(const ImuSample& sample) {
   ImuSample shifted = sample;
-  shifted.time += options_.imu_input.time_offset;
+  shifted.time += imu_time_offset_;
   imu_.add(shifted);
 }
 
@@ -93,6 +94,7 @@ FrameResult InertialPipeline::process(const Scan& scan) {
   result.T_map_lidar = filter_->state().T_world_lidar();
   describe_motion(*filter_, samples_.empty() ? nullptr : &samples_.back(), result);
   result.imu_noise = imu_noise_;
+  result.imu_time_offset = imu_time_offset_;
   judge_imu(result);
   return result;
 }

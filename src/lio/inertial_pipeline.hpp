@@ -71,6 +71,7 @@ class InertialPipeline final : public Pipeline {
       const Executor& executor);
 
   void add_imu(const ImuSample& sample) override;
+  double imu_needed_until(double time) const override { return time - imu_time_offset_; }
   FrameResult process(const Scan& scan) override;
   const LioMap& map() const override { return *map_; }
   const DeskewedScan& scan() const override;
@@ -92,6 +93,7 @@ class InertialPipeline final : public Pipeline {
   void leave_imu(const ConstantVelocity& motion);
   void join_imu(const MotionFit& motion);
   void judge_imu(const FrameResult& result);
+  void follow_imu_clock();
   std::string why_left() const;
   void forget_accel_bias();
   NavVector extrinsic_deviations() const;
@@ -130,6 +132,7 @@ class InertialPipeline final : public Pipeline {
   std::size_t min_first_keypoints_;  ///< of a scan that begins a map
   std::optional<Pose> start_;        ///< T_map_body in a map that others have begun
   std::optional<ErrorStateFilter> filter_;
+  double imu_time_offset_;                  ///< that is added to the times of readings [s]
   double read_until_ = -1e300;              ///< time of the last reading taken [s]
   ImuNoise imu_noise_;                      ///< that the filter works with
   std::optional<double> first_time_;        ///< of a scan [s]

@@ -113,6 +113,7 @@ FrameResult InertialPipeline::process_alone(const Scan& scan) {
     }
     const ImuVerdict inspection = judge_.inspect(result.time);
     const ImuVerdict verdict = judge_.judge(join_after_);
+    follow_imu_clock();
     is_imu_usable_ = inspection != ImuVerdict::kUnusable && verdict != ImuVerdict::kUnusable;
     // Where the scans slide they tell no velocity to begin with.
     slid_time_ = result.unobserved.empty() ? slid_time_ : result.time;
@@ -120,6 +121,7 @@ FrameResult InertialPipeline::process_alone(const Scan& scan) {
       join_imu(*judge_.motion());
     }
   }
+  result.imu_time_offset = imu_time_offset_;
   return result;
 }
 
@@ -166,6 +168,7 @@ void InertialPipeline::judge_imu(const FrameResult& result) {
     const bool is_due = believed_ >= kFirst && (believed_ & (believed_ - 1)) == 0;
     verdict = believed_ == kFirst || is_due ? judge_.watch() : verdict;
     const ImuVerdict inspection = judge_.inspect(result.time);
+    follow_imu_clock();
     if (inspection == ImuVerdict::kMended) {
       forget_accel_bias();
     }
@@ -177,15 +180,24 @@ void InertialPipeline::judge_imu(const FrameResult& result) {
     go_alone(ConstantVelocity({result.time, result.T_map_body}));
     return;
   }
-  if (result.status == FrameStatus::kLost || !is_imu_usable_ || verdict == ImuVerdict::kMended) {
+  const bool is_changed = verdict == ImuVerdict::kMended || verdict == ImuVerdict::kDoubtful;
+  if (result.status == FrameStatus::kLost || !is_imu_usable_ || is_changed) {
     join_after_ = std::max(kRejoinAfter, join_after_);
     go_alone(motion_);
   }
 }
 
+void InertialPipeline::follow_imu_clock() {
+  const double offset = judge_.take_clock_offset();
+  imu_.move(-offset);
+  read_until_ -= offset;
+  imu_time_offset_ -= offset;
+}
+
 std::vector<std::string> InertialPipeline::findings() const {
   std::vector<std::string> findings = judge_.summary();
-  const std::string doubt = judge_.findings().empty() ? why_left() : "";
+  const bool is_explained = !judge_.findings().empty() || (!findings.empty() && !is_alone_);
+  const std::string doubt = is_explained ? "" : why_left();
   const std::string misled = findings.empty() && doubt.empty() ? predictions_.finding() : "";
   for (const std::string& line : {doubt, misled, left_out_finding(imu_.stats())}) {
     if (!line.empty()) {

@@ -38,6 +38,12 @@ void MotionHistory::add(const StampedPose& T_map_body) {
   }
 }
 
+void MotionHistory::move_readings(double by) {
+  for (Reading& reading : readings_) {
+    reading.sample.time += by;
+  }
+}
+
 double MotionHistory::duration() const {
   return poses_.empty() ? 0.0 : poses_.back().time - poses_.front().time;
 }

@@ -25,6 +25,8 @@ class MotionHistory {
   void add(const ImuSample& reading);
   void add(const StampedPose& T_map_body);
   void clear() { *this = MotionHistory(); }
+  /// Moves the readings by a time [s].
+  void move_readings(double by);
 
   /// Time from the first pose to the last [s].
   double duration() const;

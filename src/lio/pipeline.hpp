@@ -76,6 +76,7 @@ struct FrameResult {
   UnobservedDirections unobserved;  ///< these directions
   int iterations = 0;
   ImuNoise imu_noise = {0.0, 0.0, 0.0, 0.0, 0.0};  ///< given or learned; zero without an IMU
+  double imu_time_offset = 0.0;  ///< given and learned: added to the readings' times [s]
   InsertStats inserted;
   StageTimes times;
   std::string message;  ///< why there is no pose, or what was done about bad data
@@ -86,9 +87,12 @@ class Pipeline {
  public:
   virtual ~Pipeline() = default;
 
-  /// Takes an IMU reading. All readings up to a scan's end must come before that scan; a pipeline
-  /// without an IMU ignores them.
+  /// Takes an IMU reading. All readings up to imu_needed_until() a scan's end must come before that
+  /// scan; a pipeline without an IMU ignores them.
   virtual void add_imu(const ImuSample& sample) = 0;
+  /// `time` [s] by the clock that stamps the readings: they belong to it where that is late or
+  /// early, as far as it is known by now.
+  virtual double imu_needed_until(double time) const { return time; }
 
   /// Takes the next scan in order of time.
   virtual FrameResult process(const Scan& scan) = 0;

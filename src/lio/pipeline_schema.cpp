@@ -135,6 +135,10 @@ void bind_imu(Schema& schema, InertialOptions& inertial) {
       input.accel_scale,
       "Accelerations times this are in m/s^2, so -1 mends a wrong sign; with 0 the data tell");
   schema.add("time_offset", input.time_offset, "This is added to the IMU's times [s]");
+  schema.add(
+      "learn_time_offset",
+      input.learns_time_offset,
+      "The rest of it is learned from the turns of scans and gyroscope");
   InitializerOptions& initializer = inertial.initializer;
   schema.add(
       "still_duration",

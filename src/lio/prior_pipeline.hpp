@@ -38,6 +38,7 @@ class PriorPipeline final : public Pipeline {
       bool extends);
 
   void add_imu(const ImuSample& sample) override;
+  double imu_needed_until(double time) const override { return pipeline_->imu_needed_until(time); }
   FrameResult process(const Scan& scan) override;
   const LioMap& map() const override { return pipeline_->map(); }
   const DeskewedScan& scan() const override { return pipeline_->scan(); }

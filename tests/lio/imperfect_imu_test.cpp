@@ -172,6 +172,30 @@ TEST(ImperfectImu, WithAKnownOffsetIsShifted) {
   expect_tracks_from(1.3, recording, run(recording, options));
 }
 
+TEST(ImperfectImu, WhoseClockIsLateOrEarlyIsMoved) {
+  for (const double late : {0.02, -0.02, 0.15}) {
+    RoomRecording recording = recording_sending([late](ImuSample& sample) { sample.time += late; });
+    recording.motion.turning = 1.5;
+    recording.duration = 20.0;
+    const Outcome outcome = run(recording);
+    expect_tracks_from(1.3, recording, outcome);
+    EXPECT_NEAR(outcome.frames.back().imu_time_offset, -late, 0.002);
+    EXPECT_THAT(
+        outcome.findings, ::testing::Contains(::testing::HasSubstr(late > 0.0 ? "late" : "early")));
+  }
+}
+
+TEST(ImperfectImu, WhoseClockIsNotToBeLearnedIsNamed) {
+  RoomRecording recording = recording_sending([](ImuSample& sample) { sample.time += 0.01; });
+  recording.motion.turning = 1.5;
+  recording.duration = 10.0;
+  PipelineOptions options = room_options();
+  options.inertial.imu_input.learns_time_offset = false;
+  const Outcome outcome = run(recording, options);
+  EXPECT_EQ(outcome.frames.back().imu_time_offset, 0.0);
+  EXPECT_THAT(outcome.findings, ::testing::Contains(::testing::HasSubstr("imu.time_offset=-0.0")));
+}
+
 TEST(ImperfectImu, WithSpikesIsUsedWithoutThem) {
   RoomRecording recording;
   int count = 0;

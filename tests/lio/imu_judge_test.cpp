@@ -206,9 +206,10 @@ TEST(ImuJudge, FindsTheOffsetOfTheClocks) {
       sample.time = t;
       return sample;
     };
-    witness.verdict(8.0);
-    ASSERT_FALSE(witness.judge.findings().empty()) << late;
-    const std::string& finding = witness.judge.findings()[0];
+    EXPECT_EQ(witness.verdict(8.0), ImuVerdict::kMended) << late;
+    EXPECT_NEAR(witness.judge.take_clock_offset(), late, 0.015);
+    EXPECT_EQ(witness.judge.take_clock_offset(), 0.0);
+    const std::string finding = witness.judge.summary().at(0);
     const std::size_t begin = finding.find("imu.time_offset=");
     ASSERT_NE(begin, std::string::npos) << finding;
     EXPECT_NEAR(std::stod(finding.substr(begin + 16)), -late, 0.015) << finding;

@@ -73,6 +73,23 @@ TEST(ImuBuffer, CountsAndDropsWhatIsLateOrNotFinite) {
   EXPECT_EQ(buffer.stats().non_finite, 2U);
 }
 
+TEST(ImuBuffer, MovesItsReadingsAndTakesThoseThatFollow) {
+  for (const double by : {0.3, -0.3}) {
+    ImuBuffer buffer;
+    for (int i = 0; i <= 4; ++i) {
+      buffer.add(sample(i));
+    }
+    buffer.use_until(2.0);
+    buffer.move(by);
+    buffer.add(sample(5.0 + by));
+    buffer.add(sample(1.9 + by));
+    EXPECT_EQ(buffer.stats().late, 1U);
+    std::vector<ImuSample> found;
+    buffer.between(2.0 + by, 5.0 + by, 1.5, found);
+    EXPECT_THAT(times(found), ::testing::ElementsAre(2.0 + by, 3.0 + by, 4.0 + by, 5.0 + by));
+  }
+}
+
 TEST(ImuBuffer, KnowsTheUsualIntervalOfItsStream) {
   ImuBuffer buffer;
   EXPECT_EQ(buffer.interval(), 0.0);
@@ -116,6 +133,33 @@ TEST(ImuInitializer, RefusesAMovingSensorWithAReason) {
   EXPECT_FALSE(initializer.state());
   EXPECT_THAT(
       initializer.why_not(), ::testing::HasSubstr("the sensor moves: keep it still for 1 s"));
+}
+
+// What is white noise, and what is motion, does not depend on the grade of the IMU.
+TEST(ImuInitializer, TellsNoiseFromMotion) {
+  auto generator = test::rng();
+  std::normal_distribution<double> normal;
+  const auto vector = [&] {
+    return Eigen::Vector3d(normal(generator), normal(generator), normal(generator));
+  };
+  for (const double swing : {0.0, 0.1}) {  // [rad/s], at 1.5 Hz
+    std::vector<ImuSample> readings;
+    for (int i = 0; i <= 200; ++i) {
+      const double t = 0.005 * i;
+      const Eigen::Vector3d rate(0.0, swing * std::sin(3.0 * M_PI * t), 0.0);
+      readings.push_back(
+          {t, rate + 0.04 * vector(), Eigen::Vector3d(0.0, 0.0, 9.81) + 0.4 * vector()});
+    }
+    EXPECT_EQ(judge_stillness(readings, {}).still, swing == 0.0);
+  }
+}
+
+TEST(ImuInitializer, TakesSlowReadingsAsTheyAre) {
+  std::vector<ImuSample> readings;
+  for (int i = 0; i <= 20; ++i) {  // swings of 5 Hz, which 20 Hz only just show
+    readings.push_back({0.05 * i, {0.1 * std::sin(0.5 * M_PI * i), 0.0, 0.0}, {0.0, 0.0, 9.81}});
+  }
+  EXPECT_FALSE(judge_stillness(readings, {}).still);
 }
 
 TEST(ImuInitializer, KnowsWhichWayIsUpWhileMoving) {

@@ -56,6 +56,7 @@ class Node {
   void learn();
   void try_to_process(const RawCloud& cloud);
   void process(const RawCloud& cloud);
+  double imu_needed_until(double time);
   void find_frames_once(const std::string& lidar_frame, std::unique_lock<std::mutex>& lock);
   void begin_anew(const std::string& reason);
   void tell(const nvm::lio::FrameResult& frame, const RawCloud& cloud);

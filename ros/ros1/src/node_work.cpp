@@ -70,8 +70,7 @@ void Node::process(const RawCloud& cloud) {
   }
   const nvm::lio::Scan scan =
       converter_.convert(nvm::io::read_cloud(cloud.message).records, cloud.stamp);
-  const double imu_time_offset = options_.pipeline.inertial.imu_input.time_offset;
-  const auto readings = queue_->imu_until(cloud, scan.t_end - imu_time_offset);
+  const auto readings = queue_->imu_until(cloud, imu_needed_until(scan.t_end));
   if (!readings) {
     return;
   }
@@ -89,6 +88,12 @@ void Node::process(const RawCloud& cloud) {
   outputs_.publish(frame, odometry_->pipeline(), *frames_);
   tell(frame, cloud);
   tell_findings(frame.time);
+}
+
+double Node::imu_needed_until(double time) {
+  const std::lock_guard lock(mutex_);
+  return odometry_ ? odometry_->pipeline().imu_needed_until(time)
+                   : time - options_.pipeline.inertial.imu_input.time_offset;
 }
 
 // Leaves the mutex to others while it waits for TF.

@@ -128,7 +128,9 @@ class OdometryNode(Node):
     def _process(self, epoch: int, arrival: float, cloud) -> None:
         points, times = self._reader.read(cloud)
         end = float(np.nanmax(times)) if len(times) else 0.0
-        readings = self._queue.imu_until(epoch, end)
+        with self._lock:
+            needed = self._odometry.imu_needed_until(end) if self._odometry else end
+        readings = self._queue.imu_until(epoch, needed)
         if readings is None:
             return
         if self._odometry is None and not self._start(cloud.header.frame_id.lstrip("/")):
