@@ -26,11 +26,15 @@ void RunSummary::note_pause(double time) {
 }
 
 void RunSummary::add(const FrameResult& frame, std::size_t returns) {
+  constexpr std::size_t kMaxMessages = 16;
   note_pause(frame.time);
   imu_noise_ = frame.imu_noise;
+  has_imu_ = has_imu_ || frame.imu_noise.gyro > 0.0;
   imu_time_offset_ = frame.imu_time_offset;
   ++frames_;
-  if (frame.status != FrameStatus::kInitializing && frame.status != FrameStatus::kSkipped) {
+  const bool is_waiting =
+      frame.status == FrameStatus::kInitializing && frame.message != lio::kTooFewSurfaces;
+  if (!is_waiting && frame.status != FrameStatus::kSkipped) {
     returns_ += std::min(returns, max_points_);
   }
   poses_ += has_pose(frame) ? 1 : 0;
@@ -44,8 +48,9 @@ void RunSummary::add(const FrameResult& frame, std::size_t returns) {
   }
   for (Trouble& trouble : troubles_) {
     trouble.spans.add(frame.time, frame.status == trouble.status);
-    if (frame.status == trouble.status && trouble.spans.count() == 1) {
-      trouble.first_message = frame.message;
+    if (frame.status == trouble.status &&
+        (trouble.messages.size() < kMaxMessages || trouble.messages.count(frame.message) > 0)) {
+      ++trouble.messages[frame.message];
     }
   }
   for (std::size_t i = 0; i < summaries_.size(); ++i) {
@@ -63,7 +68,15 @@ std::string RunSummary::describe(const Trouble& trouble) const {
       lio::name(trouble.status),
       trouble.meaning,
       trouble.spans.describe(begin_),
-      trouble.first_message);
+      trouble.usual_message());
+}
+
+std::string RunSummary::Trouble::usual_message() const {
+  const auto usual =
+      std::max_element(messages.begin(), messages.end(), [](const auto& a, const auto& b) {
+        return a.second < b.second;
+      });
+  return usual == messages.end() ? "" : usual->first;
 }
 
 std::string RunSummary::main_trouble() const {
@@ -71,7 +84,19 @@ std::string RunSummary::main_trouble() const {
       std::max_element(troubles_.begin(), troubles_.end(), [](const Trouble& a, const Trouble& b) {
         return a.spans.count() < b.spans.count();
       });
-  return most->spans.count() > 0 ? describe(*most) : "";
+  const std::string range = range_warning();
+  return most->spans.count() > 0 ? describe(*most) + (range.empty() ? "" : ". " + range) : "";
+}
+
+std::string RunSummary::range_warning() const {
+  constexpr std::size_t kLeastShare = 4;  // of the returns: one in so many is used
+  if (kLeastShare * inserted_.points >= returns_) {
+    return "";
+  }
+  return fmt::format(
+      "{:.0f} % of the returns lie nearer than lidar.min_range or farther than lidar.max_range: "
+      "are coordinates in metres?",
+      100.0 * (1.0 - static_cast<double>(inserted_.points) / static_cast<double>(returns_)));
 }
 
 std::vector<std::string> RunSummary::warnings() const {
@@ -106,23 +131,19 @@ std::string RunSummary::unobserved_directions() const {
 }
 
 void RunSummary::add_input_warnings(std::vector<std::string>& warnings) const {
-  constexpr double kLeastPause = 0.5;     // [s]
-  constexpr double kUsualPauses = 5.0;    // that the longest one is worth a word beyond
-  constexpr std::size_t kLeastShare = 4;  // of the returns: one in so many is used
+  constexpr double kLeastPause = 0.5;   // [s]
+  constexpr double kUsualPauses = 5.0;  // that the longest one is worth a word beyond
   const double usual_pause =
       (end_ - begin_) / static_cast<double>(std::max<std::size_t>(1, frames_));
   if (longest_pause_ > std::max(kLeastPause, kUsualPauses * usual_pause)) {
     warnings.push_back(fmt::format(
-        "no scan came for {:.1f} s after {:.1f} s (dropped messages?): without an IMU the way "
-        "between is a guess",
+        "no scan came for {:.1f} s after {:.1f} s (dropped messages?){}",
         longest_pause_,
-        longest_pause_begin_ - begin_));
+        longest_pause_begin_ - begin_,
+        has_imu_ ? "" : ": without an IMU the way between is a guess"));
   }
-  if (kLeastShare * inserted_.points < returns_) {
-    warnings.push_back(fmt::format(
-        "{:.0f} % of the returns lie nearer than lidar.min_range or farther than lidar.max_range: "
-        "are coordinates in metres?",
-        100.0 * (1.0 - static_cast<double>(inserted_.points) / static_cast<double>(returns_))));
+  if (const std::string range = range_warning(); !range.empty()) {
+    warnings.push_back(range);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -59,7 +60,9 @@ class RunSummary {
     lio::FrameStatus status;
     const char* meaning;
     TimeSpans spans = {};
-    std::string first_message = {};
+    std::map<std::string, std::size_t> messages = {};  ///< in how many frames
+
+    std::string usual_message() const;
   };
   /// CPU time of a stage [ms].
   struct StageSummary {
@@ -68,6 +71,7 @@ class RunSummary {
   };
 
   double mean(const StageSummary& summary) const;
+  std::string range_warning() const;
   void note_pause(double time);
   std::string describe(const Trouble& trouble) const;
   void add_input_warnings(std::vector<std::string>& warnings) const;
@@ -84,6 +88,7 @@ class RunSummary {
   double longest_pause_begin_ = 0.0;  ///< [s]
   std::size_t returns_ = 0;           ///< that would have been used within the limits of range
   InsertTotals inserted_;
+  bool has_imu_ = false;                            ///< that was used
   double imu_time_offset_ = 0.0;                    ///< of the last frame [s]
   lio::ImuNoise imu_noise_ = {0.0, 0.0, 0.0, 0.0};  ///< of the last frame
   std::array<Trouble, 4> troubles_ = {

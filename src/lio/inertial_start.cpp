@@ -212,7 +212,7 @@ std::string InertialPipeline::why_left() const {
   if (contradictions_ > 0) {
     return contradiction_finding(contradictions_, is_alone_);
   }
-  if (!is_alone_) {
+  if (!is_alone_ || map_->size() == 0) {  // without a map the scans tell nothing either
     return "";
   }
   return read_until_ < *first_time_

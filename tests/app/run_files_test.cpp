@@ -246,6 +246,23 @@ TEST(RunSummaryTest, NamesReturnsThatAreAlmostAllOutOfRange) {
       ::testing::ElementsAre(::testing::HasSubstr("initializing")));
 }
 
+// Whatever the first scans wait for, what most of them lack is the reason that none got a pose.
+TEST(RunSummaryTest, NamesTheUsualTroubleOfARunWithoutAPose) {
+  RunSummary summary;
+  FrameResult frame;
+  for (int i = 0; i < 30; ++i) {
+    frame.time = 0.1 * i;
+    frame.message = i < 10 ? "waits" : lio::kTooFewSurfaces;
+    summary.add(frame, 5000);
+  }
+  EXPECT_THAT(
+      summary.main_trouble(),
+      ::testing::AllOf(
+          ::testing::HasSubstr(lio::kTooFewSurfaces),
+          ::testing::HasSubstr("100 % of the returns"),
+          ::testing::Not(::testing::HasSubstr("waits"))));
+}
+
 TEST(RunVerdictTest, AMapOfNextToNoPointsIsNotUsable) {
   const RunSummary summary = summary_of("ttttt");
   EXPECT_NO_THROW(check_usable(summary, 5, "out"));
