@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "support/rng.hpp"
@@ -63,6 +64,32 @@ TEST(RobustKernel, WeightIsTheDerivativeOfTheLossOverTheResidual) {
 
 Association on_plane(const Eigen::Vector3d& normal, double distance) {
   return {normal, distance, 1.0, AssociationStatus::kValid};
+}
+
+// Minimises rho(w e) over the weighted residuals: the kernel must see w e, not e.
+TEST(NormalEquations, GradientIsThatOfTheLossOfTheWeightedResidual) {
+  auto rng = test::rng();
+  const RobustKernel kernel{RobustKernel::Type::kCauchy, 0.05};
+  const auto loss = [&](double e) {
+    return 0.5 * kernel.scale * kernel.scale * std::log1p(std::pow(e / kernel.scale, 2));
+  };
+  for (const double weight : {1.0, 0.5, 0.1}) {
+    const Pose pose = random_pose(rng);
+    const Eigen::Vector3d p_scan = random_vector(rng);
+    const Eigen::Vector3d normal = random_vector(rng).normalized();
+    const double distance = 0.2;
+    NormalEquations equations;
+    equations.add(
+        p_scan, pose.linear(), {normal, distance, weight, AssociationStatus::kValid}, kernel);
+    for (int i = 0; i < 6; ++i) {
+      constexpr double kStep = 1e-6;
+      const auto loss_at = [&](double h) {
+        const Pose moved = retract(pose, PoseStep(h * PoseStep::Unit(i)));
+        return loss(weight * (distance + normal.dot(moved * p_scan - pose * p_scan)));
+      };
+      EXPECT_NEAR(equations.gradient[i], (loss_at(kStep) - loss_at(-kStep)) / (2.0 * kStep), 1e-7);
+    }
+  }
 }
 
 TEST(NormalEquations, SolutionZeroesTheResidualsOfASmallDisplacement) {
