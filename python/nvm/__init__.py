@@ -24,6 +24,7 @@ from ._nvm import (
 )
 from .commands import evaluate, simulate
 from .store import Store, open_store
+from .walls import survey
 
 __all__ = [
     "AlignResult",
@@ -42,5 +43,6 @@ __all__ = [
     "load",
     "open_store",
     "simulate",
+    "survey",
     "view_directions",
 ]

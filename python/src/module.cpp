@@ -16,4 +16,5 @@ NB_MODULE(_nvm, module) {
   nvm::python::bind_normals(module);
   nvm::python::bind_registration(module);
   nvm::python::bind_odometry(module);
+  nvm::python::bind_survey(module);
 }

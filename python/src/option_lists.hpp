@@ -5,6 +5,7 @@
 #include "nvm/core/option.hpp"
 #include "nvm/normal/normal_options.hpp"
 #include "nvm/registration/align_options.hpp"
+#include "survey/survey_options.hpp"
 
 namespace nvm::python {
 
@@ -61,6 +62,21 @@ void visit_options(AlignOptions& options, Visitor&& visit) {
   visit(
       option("min_observability", "Below it a direction keeps the guess, 0 to 1."),
       options.min_observability);
+}
+
+template <class Visitor>
+void visit_options(survey::SurveyOptions& options, Visitor&& visit) {
+  visit(
+      option("patch_size", "Of the cells that faces grow over [m], 0.05 to 2."),
+      options.patch_size);
+  visit(option("min_area", "Seen from both sides [m^2], 0.1 to 100."), options.min_area);
+  visit(option("max_thickness", "Of a wall [m], 0.05 to 2."), options.max_thickness);
+  visit(option("min_thickness", "Of a wall [m], 0 to 0.1."), options.min_thickness);
+  visit(option("max_gap", "That a face goes on behind [m], 0 to 20."), options.max_gap);
+  visit(option("plan_height", "Above the floor [m], -100 to 100."), options.plan_height);
+  visit(
+      option("drift", "Standard deviation of the pose between two passes [m], 0 to 1."),
+      options.drift);
 }
 
 }  // namespace nvm::python

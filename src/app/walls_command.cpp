@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -16,6 +17,7 @@
 #include "io/map_cloud.hpp"
 #include "io/map_files.hpp"
 #include "io/map_origin.hpp"
+#include "io/tile_store.hpp"
 #include "nvm/map/serialization.hpp"
 #include "nvm/map/sighting.hpp"
 #include "survey/survey.hpp"
@@ -36,6 +38,9 @@ io::MapCloud read_map(const std::string& path) {
   const std::string extension = io::extension_of(path);
   if (extension == ".ply" || extension == ".pcd") {
     return io::read_map_cloud(path);
+  }
+  if (std::filesystem::is_directory(path)) {
+    return io::read_tile_store(path);
   }
   return io::map_cloud_of(without_sightings(load_map(path).points()), io::read_origin(path));
 }
@@ -90,7 +95,9 @@ void add_walls_command(CLI::App& app) {
       "walls", "List the walls, slabs and doors of a map, measured, and draw a floor plan");
   const auto arguments = std::make_shared<WallsArguments>();
   survey::SurveyOptions& options = arguments->options;
-  command->add_option("MAP", arguments->map, "A map.nvm file, or a PLY or PCD with normals")
+  command
+      ->add_option(
+          "MAP", arguments->map, "A map.nvm file, a store of tiles, or a PLY or PCD with normals")
       ->required();
   command->add_option("--out", arguments->folder, "Folder of the results")->required();
   command->add_option("--height", options.plan_height, "Of the plan above the floor [m]")

@@ -3,10 +3,14 @@
 #include <gmock/gmock.h>
 
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "app/program_fixture.hpp"
 #include "io/map_cloud.hpp"
+#include "io/tile_store.hpp"
+#include "nvm/map/serialization.hpp"
+#include "nvm/map/voxel_map.hpp"
 #include "survey/surface_sampler.hpp"
 
 namespace nvm::survey {
@@ -68,6 +72,87 @@ TEST_F(WallsProgramTest, ASavedMapAndItsPointsGiveTheSame) {
   }
   const auto faces = nlohmann::json::parse(test::text_of(path("a/walls.json")))["faces"];
   EXPECT_GE(faces.size(), 5U);
+}
+
+constexpr double kTile = 2.0;  // [m]
+
+/// Whether `position` lies in the tile from `low`, or within `margin` [m] of it.
+bool is_in_tile(const Eigen::Vector3d& position, const Eigen::Vector3d& low, double margin) {
+  const Eigen::Array3d offset = (position - low).array();
+  return (offset >= -margin).all() && (offset < kTile + margin).all();
+}
+
+/// The points of the tile from `low`, with those of its neighbours that are near.
+VoxelMap tile_map(const io::MapCloud& cloud, const Eigen::Vector3d& low) {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Eigen::Vector3f> normals;
+  for (std::size_t i = 0; i < cloud.positions.size(); ++i) {
+    if (is_in_tile(cloud.positions[i], low, 0.6)) {
+      points.push_back(cloud.positions[i]);
+      normals.push_back(cloud.normals[i]);
+    }
+  }
+  MapOptions options;
+  options.min_point_distance = 0.0;
+  VoxelMap map(options);
+  map.insert(points, normals);
+  return map;
+}
+
+/// Writes `cloud` as a store of tiles; returns how many points there are.
+std::size_t write_store(const std::string& folder, const io::MapCloud& cloud) {
+  std::filesystem::create_directories(folder + "/tiles");
+  std::size_t total = 0;
+  nlohmann::json tiles = nlohmann::json::array();
+  for (int cell = 0; cell < 24; ++cell) {
+    const Eigen::Vector3i tile(cell % 4 - 1, cell / 4 % 2 - 1, cell / 8 - 1);
+    const Eigen::Vector3d low = kTile * tile.cast<double>();
+    const VoxelMap map = tile_map(cloud, low);
+    std::size_t own = 0;
+    for (const MapPoint& point : map.points()) {
+      own += is_in_tile(point.position, low, 0.0) ? 1 : 0;
+    }
+    if (own > 0) {
+      const std::string file = "tiles/" + std::to_string(tiles.size()) + ".nvm";
+      save_map(map, folder + "/" + file);
+      tiles.push_back({{"tile", {tile.x(), tile.y(), tile.z()}}, {"file", file}, {"points", own}});
+      total += own;
+    }
+  }
+  std::ofstream(folder + "/index.json") << nlohmann::json(
+      {{"format", "nvm-store"}, {"version", 1}, {"tile_size", kTile}, {"tiles", tiles}});
+  return total;
+}
+
+TEST_F(WallsProgramTest, AStoreOfTilesIsOneMap) {
+  const io::MapCloud cloud = io::read_map_cloud(path("walls/map.ply"));
+  const std::size_t total = write_store(path("store"), cloud);
+  EXPECT_EQ(io::read_tile_store(path("store")).positions.size(), total);
+  const test::Outcome outcome = nvm("walls " + path("store") + " --out " + path("out"));
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  const auto list = nlohmann::json::parse(test::text_of(path("out/walls.json")));
+  ASSERT_EQ(list["walls"].size(), 1U);
+  EXPECT_NEAR(list["walls"][0]["thickness"].get<double>(), 0.05, 0.001);
+  EXPECT_NEAR(list["walls"][0]["length"].get<double>(), 4.0, 0.05);
+}
+
+TEST_F(WallsProgramTest, ADamagedStoreIsRefused) {
+  write_store(path("store"), io::read_map_cloud(path("walls/map.ply")));
+  const std::string walls = "walls " + path("store") + " --out " + path("out");
+  const std::string index = test::text_of(path("store/index.json"));
+  std::filesystem::copy_file(
+      path("store/tiles/0.nvm"),
+      path("store/tiles/1.nvm"),
+      std::filesystem::copy_options::overwrite_existing);
+  expect_failure(walls, "tiles/1.nvm: is not the file that index.json tells of");
+  write(
+      "store/index.json",
+      std::string(index).replace(index.find("\"version\":1"), 11, "\"version\":2"));
+  expect_failure(walls, "has version 2");
+  write("store/index.json", index.substr(0, index.size() / 2));
+  expect_failure(walls, "is not the index of a store");
+  std::filesystem::remove(path("store/index.json"));
+  expect_failure(walls, "index.json: is missing");
 }
 
 TEST_F(WallsProgramTest, BadInputGivesOneLineAndLeavesNothing) {
