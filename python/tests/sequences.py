@@ -3,6 +3,7 @@
 """A walk around a thin wall, as a folder that the program reads (docs/formats.md), without a simulator."""
 
 import json
+import pathlib
 
 import numpy as np
 from support import unit
@@ -78,3 +79,28 @@ def write_sequence(folder, rng):
 def write_truth(path, times):
     poses = np.column_stack([times, positions(times), np.tile([0, 0, 0, 1], (len(times), 1))])
     np.savetxt(path, poses, "%.9f")
+
+
+def write_walk(path):
+    """The walk as a ROS 2 bag in the folder `path`; returns it."""
+    from recordings import write
+
+    return write(pathlib.Path(path), "mcap", walk(np.random.default_rng(5)))
+
+
+def walk(rng):
+    """A maker of the walk as messages."""
+    from recordings import CLOUD, IMU, POINT
+
+    def make(m):
+        for time, gyro, accel in zip(*readings(rng)):
+            yield "/imu", IMU, 100.0 + time, m.imu(100.0 + time, gyro, accel, frame="lidar")
+        for i in range(round(SECONDS / PERIOD)):
+            begin = PERIOD * i
+            records = np.zeros(3000, POINT)
+            points, dt = scan(rng, begin)
+            records["x"], records["y"], records["z"] = points.T
+            records["t"] = np.round(1e9 * dt)
+            yield "/points", CLOUD, 100.0 + begin + PERIOD, m.cloud(100.0 + begin, records)
+
+    return make
