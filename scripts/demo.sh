@@ -14,6 +14,7 @@ $nvm simulate wall5 --out $demo/sequence
 build/release/tests/adapters/nvm_fast_lio_shape $demo/sequence $demo/fast_lio_shape $demo/the_same_on_nvm
 $nvm run $demo/sequence --out $demo/nvm_run
 $nvm evaluate $demo/fast_lio_shape $demo/the_same_on_nvm $demo/nvm_run --truth $demo/sequence --out $demo/report
+PYTHONPATH=python/nvm python3 -m report $demo/report >/dev/null # of the Python package, which need not be built for it
 echo
 echo "The wall with and without nvm: $PWD/$demo/report/wall_free_standing.svg"
 echo "Trajectories, errors, times:   $PWD/$demo/report/report.html"

@@ -64,7 +64,7 @@ install_debian_packages() {
 }
 
 has_python_packages() {
-  python3 -c 'import evo, ezdxf, matplotlib, numpy, rosbags' 2>/dev/null
+  python3 -c 'import evo, ezdxf, jinja2, matplotlib, numpy, rosbags' 2>/dev/null
 }
 
 install_python_packages() {

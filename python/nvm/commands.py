@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import pathlib
@@ -68,7 +69,7 @@ def evaluate(runs, out, *, truth=None, align="se3", regions=None) -> dict:
     runs : path or sequence of paths
         Folders of ``nvm run``, or TUM files.
     out : path
-        Folder of report.html and evaluation.json.
+        Folder of evaluation.json and, where matplotlib and jinja2 are installed, report.html.
     truth : path, optional
         Sequence folder or TUM file.
     align : 'se3', 'sim3' or 'none'
@@ -90,4 +91,8 @@ def evaluate(runs, out, *, truth=None, align="se3", regions=None) -> dict:
     for name, value in (("--truth", truth), ("--regions", regions)):
         words += [name, value] if value is not None else []
     call("evaluate", *folders, "--out", out, *words)
+    with contextlib.suppress(ImportError):
+        from .report import write_report
+
+        write_report(out)
     return json.loads((pathlib.Path(out) / "evaluation.json").read_text())

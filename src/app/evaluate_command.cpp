@@ -107,7 +107,7 @@ void evaluate(EvaluateArguments& arguments) {
     print_remarks(run);
     print_summary(run);
   }
-  fmt::print("{0}/report.html, {0}/evaluation.json\n", arguments.folder);
+  fmt::print("{}/evaluation.json\n", arguments.folder);
   interruption.check(arguments.folder + " holds the whole report");
 }
 

@@ -8,9 +8,10 @@
 
 namespace nvm::eval {
 
-/// Writes evaluation.json, report.html and a wall_NAME.svg per picture of a wall into `folder`,
-/// which is made where it does not exist. `evaluation` has at least one run. Each file appears
-/// whole or not at all. Throws std::runtime_error, naming the file, when one cannot be written.
+/// Writes evaluation.json and drawing.json into `folder`, which is made where it does not exist;
+/// the Python package draws them (python/nvm/report). `evaluation` has at least one run. Each file
+/// appears whole or not at all. Throws std::runtime_error, naming the file, when one cannot be
+/// written.
 void write_report(const Evaluation& evaluation, const std::string& folder);
 
 }  // namespace nvm::eval
