@@ -65,19 +65,50 @@ def view(arguments) -> None:
     RunLog(open_stream(arguments.record)).results(results)
 
 
+NO_PICTURES = "pictures take matplotlib and jinja2: pip install 'nvm[plot]'"
+
+
 def plot(arguments) -> None:
-    """Writes pictures of finished results."""
+    """Writes pictures of finished results, or the report of an evaluation."""
     try:
         from .plots import write_plots
+        from .report import write_report
     except ImportError as error:
-        raise RuntimeError("pictures take matplotlib: pip install matplotlib") from error
+        raise RuntimeError(NO_PICTURES) from error
     from .results import read_results, read_trajectory
 
+    if os.path.exists(os.path.join(arguments.path, "evaluation.json")):
+        print(*write_report(arguments.path), sep="\n")
+        return
     results = read_results(arguments.path)
     truth = read_trajectory(arguments.truth) if arguments.truth else None
     beside = results.path if results.path.is_dir() else results.path.parent
     for path in write_plots(results, arguments.out or beside / "plots", truth):
         print(path)
+
+
+def evaluate(argv: list[str]) -> int:
+    """Runs the program, and draws what it found."""
+    from .program import run_program
+
+    code = run_program(argv)
+    folder = value_of("--out", argv)
+    if code != 0 or folder is None or "--help" in argv:
+        return code
+    try:
+        from .report import write_report
+    except ImportError:
+        print(f"nvm: note: {NO_PICTURES}", file=sys.stderr)
+        return code
+    print(write_report(folder)[0])
+    return code
+
+
+def value_of(option: str, argv: list[str]) -> str | None:
+    """What follows an option on a command line."""
+    reader = argparse.ArgumentParser(add_help=False, allow_abbrev=False)
+    reader.add_argument(option, dest="value")
+    return reader.parse_known_args(argv)[0].value
 
 
 def run_watched(argv: list[str]) -> int:
@@ -95,15 +126,13 @@ def run_watched(argv: list[str]) -> int:
         return code
     if not (watching.view or watching.record):
         return run_program(rest)
-    folder_parser = argparse.ArgumentParser(add_help=False, allow_abbrev=False)
-    folder_parser.add_argument("--out")
-    folder = folder_parser.parse_known_args(rest)[0].out
+    folder = value_of("--out", rest)
     if folder is None:
         return run_program(rest)  # which says that it needs one
     from .viewer import RunFollower, open_stream
 
-    with RunFollower(folder, open_stream(watching.record)):
-        return run_program(rest)
+    with RunFollower(folder, open_stream(watching.record)) as follower:
+        return run_program([*rest, "--stream", f"/dev/fd/{follower.sink}"], keeps=(follower.sink,))
 
 
 def parser() -> argparse.ArgumentParser:
@@ -118,8 +147,8 @@ def parser() -> argparse.ArgumentParser:
     command.add_argument("path", help="a folder of nvm run or nvm map, a map.nvm or a TUM file")
     command.add_argument("--record", metavar="FILE", help="write an .rrd file instead")
     command.set_defaults(run=view)
-    command = commands.add_parser("plot", help="draw the results of a run")
-    command.add_argument("path", help="as for view")
+    command = commands.add_parser("plot", help="draw the results of a run, or the report of an evaluation")
+    command.add_argument("path", help="as for view, or a folder of nvm evaluate")
     command.add_argument("--out", metavar="FOLDER", help="of the pictures; default: plots beside them")
     command.add_argument("--truth", metavar="FILE", help="TUM file, for the errors")
     command.set_defaults(run=plot)
@@ -135,7 +164,8 @@ def main(argv: list[str] | None = None) -> int:
         if argv and argv[0] in PROGRAM_COMMANDS:
             from .program import run_program
 
-            return run_watched(argv) if argv[0] == "run" else run_program(argv)
+            ours = {"run": run_watched, "evaluate": evaluate}
+            return ours.get(argv[0], run_program)(argv)
         arguments = parser().parse_args(argv)
         arguments.run(arguments)
     except (BagError, ValueError, RuntimeError, OSError) as error:

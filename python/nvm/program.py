@@ -55,13 +55,13 @@ def is_compiled(path: pathlib.Path) -> bool:
         return False
 
 
-def run_program(arguments: list[str]) -> int:
+def run_program(arguments: list[str], keeps: tuple[int, ...] = ()) -> int:
     """Runs the program on `arguments` and returns its exit code. The first argument that names a bag
-    is read for it."""
+    is read for it. It inherits the file descriptors `keeps`."""
     program = find_program(arguments[0])
     bags = [i for i, argument in enumerate(arguments) if i > 0 and is_bag(argument)]
     if not bags or arguments[0] not in ("run", "map"):
-        return exit_code(subprocess.run([program, *arguments], check=False).returncode)
+        return exit_code(subprocess.run([program, *arguments], pass_fds=keeps, check=False).returncode)
     before, bag, after = arguments[: bags[0]], arguments[bags[0]], arguments[bags[0] + 1 :]
     settings = input_settings(program, before + after)
     try:
@@ -70,13 +70,13 @@ def run_program(arguments: list[str]) -> int:
         if not is_ros1(bag):
             raise
         print(f"nvm: note: {error}; the program reads what there is", file=sys.stderr)
-        return exit_code(subprocess.run([program, *arguments], check=False).returncode)
+        return exit_code(subprocess.run([program, *arguments], pass_fds=keeps, check=False).returncode)
     with recording:
         choice = choose(recording, settings["lidar_topic"], settings["imu_topic"])
         for reason in choice.reasons:
             print(f"nvm: note: {reason}", file=sys.stderr)
         chosen = choice_arguments(choice, settings)
-        return feed([program, *before], [*after, *chosen], recording, choice)
+        return feed([program, *before], [*after, *chosen], keeps, recording, choice)
 
 
 def exit_code(code: int) -> int:
@@ -106,13 +106,13 @@ def choice_arguments(choice: Choice, settings: dict) -> list[str]:
     return [word for setting in chosen for word in ("--set", setting)]
 
 
-def feed(before: list[str], after: list[str], recording: Recording, choice: Choice) -> int:
+def feed(before: list[str], after: list[str], keeps, recording: Recording, choice: Choice) -> int:
     """Runs a command with the messages of a recording in the place between its arguments."""
     read_end, write_end = os.pipe()
     with contextlib.suppress(OSError):  # a system may allow less
         fcntl.fcntl(write_end, getattr(fcntl, "F_SETPIPE_SZ", 1031), PIPE_SIZE)
     command = [*before, f"/dev/fd/{read_end}", *after]
-    with subprocess.Popen(command, pass_fds=[read_end]) as process:
+    with subprocess.Popen(command, pass_fds=[read_end, *keeps]) as process:
         os.close(read_end)
         # The program ends a run well when it is interrupted: it is waited for.
         handler = signal.signal(signal.SIGINT, lambda *_: None)

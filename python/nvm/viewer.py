@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 The nvm authors
-"""Runs in rerun's viewer, finished ones and those that go on: map by side, trajectory, the status
-and the times of each scan."""
+"""Runs in rerun's viewer, finished ones and those that go on: scan, map by side, trajectory, what a
+scan does not tell, the status and the times of each scan."""
 
 from __future__ import annotations
 
-import contextlib
-import csv
+import json
+import os
 import pathlib
+import sys
 import threading
 import time
 
@@ -17,6 +18,8 @@ from .plots import SIDE_COLORS, STAGES, thinned
 from .results import Cloud, Results, read_cloud
 
 PATH_STEP = 1.02
+MAP_STEP = 1.1  # in points, from one map that is drawn to the next: all together hold ten times the last
+ARROW = 1.0  # [m]
 STATUS_LEVELS = ("skipped", "lost", "weak", "initializing", "degenerate", "tracking")
 
 
@@ -55,6 +58,7 @@ class RunLog:
         self._stream = stream
         self._positions = []
         self._drawn = 0  # of them
+        self._map_points = 0  # of the map drawn
         self._status = None
 
     def at(self, seconds: float) -> None:
@@ -89,6 +93,29 @@ class RunLog:
             self._status = status
             self._stream.log("log", rr.TextLog(f"{status} {row['why']}".strip()))
 
+    def scan(self, points, T_map_lidar) -> None:
+        """Points (N, 3) [m] in the LiDAR's frame, and where it is: x y z qx qy qz qw."""
+        rr = self._rr
+        turn = rr.Quaternion(xyzw=T_map_lidar[3:])
+        self._stream.log("world/lidar", rr.Transform3D(translation=T_map_lidar[:3], quaternion=turn))
+        self._stream.log("world/lidar/scan", rr.Points3D(points, colors=[200, 200, 200], radii=0.015))
+
+    def unobserved(self, position, translations, rotations) -> None:
+        """What a scan does not tell: directions in the map's frame, at `position`, and axes in the body's."""
+        self._arrows("world/unobserved_translations", position, translations, [220, 30, 30])
+        self._arrows("world/body/unobserved_rotations", (0.0, 0.0, 0.0), rotations, [200, 60, 200])
+
+    def _arrows(self, entity, origin, directions, color) -> None:
+        both_ways = [sign * ARROW * np.asarray(d) for d in directions for sign in (1.0, -1.0)]
+        arrows = self._rr.Arrows3D(vectors=both_ways, origins=[origin] * len(both_ways), colors=color)
+        self._stream.log(entity, arrows if both_ways else self._rr.Clear(recursive=False))
+
+    def growing_map(self, positions, sides) -> None:
+        """The map as it is now, where it has grown enough to be drawn again."""
+        if len(sides) > self._map_points * MAP_STEP:
+            self._map_points = len(sides)
+            self.cloud(thinned(Cloud(positions, np.zeros_like(positions), sides)))
+
     def cloud(self, cloud: Cloud) -> None:
         for side, (name, color) in enumerate(zip(("front", "back"), SIDE_COLORS)):
             rows = cloud.sides == side
@@ -113,37 +140,38 @@ class RunLog:
                 self.frame(dict(zip(names, values)))
 
 
-class LineFollower:
-    """Whole lines of a file that grows, as they come."""
+class StreamReader:
+    """Takes the stream of a run (docs/formats.md) from a pipe."""
 
-    def __init__(self):
-        self._offset = 0
+    def __init__(self, pipe):
+        self._pipe = pipe
 
-    def lines(self, path: pathlib.Path) -> list[str]:
-        try:
-            with open(path, "rb") as file:
-                file.seek(self._offset)
-                data = file.read()
-        except FileNotFoundError:  # not begun, or put in its place meanwhile
-            return []
-        whole = data[: data.rfind(b"\n") + 1]
-        self._offset += len(whole)
-        return whole.decode().splitlines()
+    def __iter__(self):
+        """The head of each frame, its scan (N, 3), and the map's points (M, 3) and sides (M,)."""
+        for line in self._pipe:
+            head = json.loads(line)
+            scan = self._rows(head["scan"])
+            yield head, scan, self._rows(head["map"]), self._numbers(head["map"], "u1")
+
+    def _rows(self, count):
+        return self._numbers(3 * count, "<f4").reshape(-1, 3)
+
+    def _numbers(self, count, kind):
+        size = count * np.dtype(kind).itemsize
+        data = self._pipe.read(size)
+        if len(data) < size:
+            raise EOFError("the stream of the run breaks off")
+        return np.frombuffer(data, kind)
 
 
 class RunFollower:
-    """Streams what a run of the program writes to its folder while it goes on."""
-
-    PERIOD = 0.1  # [s]
+    """Shows what a run of the program writes to `sink` while it goes on, and its map in the end."""
 
     def __init__(self, folder, stream):
         self._folder = pathlib.Path(folder)
-        self._before = set(self._unfinished())
         self._begin = time.time()
         self._log = RunLog(stream)
-        self._poses, self._frames = LineFollower(), LineFollower()
-        self._names = None
-        self._done = threading.Event()
+        self._source, self.sink = os.pipe()
         self._thread = threading.Thread(target=self._follow)
 
     def __enter__(self):
@@ -151,37 +179,26 @@ class RunFollower:
         return self
 
     def __exit__(self, *_):
-        self._done.set()
+        os.close(self.sink)
         self._thread.join()
-        if self._is_new("trajectory.tum"):
-            self._step(self._folder)
-        if self._is_new("map.nvm"):
-            self._log.cloud(thinned(read_cloud(self._folder / "map.nvm")))
-
-    def _is_new(self, name):
-        """Whether the run has put this file in its place."""
-        file = self._folder / name
-        return file.is_file() and file.stat().st_mtime >= self._begin - 1.0
-
-    def _unfinished(self):
-        return self._folder.glob("nvm-results.part-*")
+        saved = self._folder / "map.nvm"
+        if saved.is_file() and saved.stat().st_mtime >= self._begin - 1.0:  # the run has put it there
+            self._log.cloud(thinned(read_cloud(saved)))
 
     def _follow(self):
-        while not self._done.wait(self.PERIOD):
-            for folder in set(self._unfinished()) - self._before:
-                with contextlib.suppress(OSError):
-                    self._step(folder)
+        with os.fdopen(self._source, "rb") as pipe:
+            try:
+                for frame in StreamReader(pipe):
+                    self._show(*frame)
+            except Exception as error:  # the run goes on without its viewer
+                print(f"nvm: warning: the run is no longer shown: {error}", file=sys.stderr)
 
-    def _step(self, folder):
-        for line in self._poses.lines(folder / "trajectory.tum"):
-            numbers = np.array(line.split(), dtype=float)
-            self._log.pose(numbers[0], numbers[1:4], numbers[4:])
-        for line in self._frames.lines(folder / "frames.csv"):
-            self._frame(line)
-
-    def _frame(self, line):
-        cells = next(csv.reader([line]))
-        if self._names is None:
-            self._names = cells
-        else:
-            self._log.frame(dict(zip(self._names, cells)))
+    def _show(self, head, scan, positions, sides):
+        counts = {"unobserved_directions": len(head["unobserved_translations"]) + len(head["unobserved_rotations"])}
+        if head["T_map_body"]:
+            pose = np.array(head["T_map_body"])
+            self._log.pose(head["time"], pose[:3], pose[3:])
+            self._log.scan(scan, np.array(head["T_map_lidar"]))
+            self._log.unobserved(pose[:3], head["unobserved_translations"], head["unobserved_rotations"])
+        self._log.frame({**head, **head["times"], **counts})
+        self._log.growing_map(positions, sides)

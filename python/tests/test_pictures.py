@@ -95,46 +95,93 @@ def test_errors_are_those_after_the_best_rigid_alignment(folder):
         position_errors(estimate, truth)
 
 
+ENTITIES = (
+    "/world/map/front",
+    "/world/map/back",
+    "/world/body",
+    "/world/lidar/scan",
+    "/world/unobserved_translations",
+    "/world/body/unobserved_rotations",
+    "/status/of_scan",
+    "/times/optimize",
+)
+
+
 def recorded(path):
     """The entities of an .rrd file."""
     text = path.read_bytes()
-    return {name for name in ("/world/map/front", "/world/map/back", "/world/body", "/status/of_scan") if name.encode() in text}
+    return {name for name in ENTITIES if name.encode() in text}
 
 
 def test_a_finished_run_becomes_a_recording(folder, tmp_path):
     pytest.importorskip("rerun")
     assert main(["view", str(folder), "--record", str(tmp_path / "run.rrd")]) == 0
-    assert recorded(tmp_path / "run.rrd") == {"/world/map/front", "/world/map/back", "/world/body", "/status/of_scan"}
+    expected = {"/world/map/front", "/world/map/back", "/world/body", "/status/of_scan", "/times/optimize"}
+    assert recorded(tmp_path / "run.rrd") == expected
 
 
-def test_a_run_is_followed_while_it_goes_on(folder, tmp_path):
+def test_a_run_is_shown_while_it_goes_on(tmp_path, rng, monkeypatch):
     pytest.importorskip("rerun")
-    from nvm.viewer import RunFollower, open_stream
+    from sequences import write_sequence
 
-    out = tmp_path / "live"
-    part = out / "nvm-results.part-1"
-    part.mkdir(parents=True)
-    for name in ("trajectory.tum", "frames.csv"):  # of a run that was killed: not of this one
-        (part / name).write_text("nonsense\n")
-    stream = open_stream(tmp_path / "live.rrd")
-    with RunFollower(out, stream) as follower:
-        part = out / "nvm-results.part-2"
-        part.mkdir()
-        text = (folder / "trajectory.tum").read_text()
-        (part / "trajectory.tum").write_text(text[:1000])
-        (part / "frames.csv").write_text((folder / "frames.csv").read_text())
-        for _ in range(200):
-            if follower._poses._offset and follower._frames._offset:
-                break
-            follower._done.wait(0.05)
-        (part / "trajectory.tum").write_text(text)
-        for name in ("trajectory.tum", "frames.csv"):
-            (part / name).rename(out / name)
-        (out / "map.nvm").write_bytes((folder / "map.nvm").read_bytes())
-    assert follower._poses._offset == len(text)
-    assert len(follower._log._positions) == COUNT
-    del follower, stream
-    assert "/world/map/back" in recorded(tmp_path / "live.rrd")
+    from nvm import viewer
+
+    frames = []
+    show = viewer.RunFollower._show
+
+    def counted(self, *frame):
+        frames.append(frame)
+        show(self, *frame)
+
+    monkeypatch.setattr(viewer.RunFollower, "_show", counted)
+    sequence = write_sequence(tmp_path / "walk", rng)
+    arguments = ["run", str(sequence), "--out", str(tmp_path / "out"), "--record", str(tmp_path / "live.rrd")]
+    assert main(arguments) == 0
+    rows = (tmp_path / "out" / "frames.csv").read_text().splitlines()
+    assert len(frames) == len(rows) - 1
+    placed = [frame for frame in frames if frame[0]["T_map_body"]]
+    poses = read_trajectory(tmp_path / "out" / "trajectory.tum")
+    np.testing.assert_allclose([head["T_map_body"][:3] for head, *_ in placed], poses.positions, atol=1e-8)
+    assert all(len(scan) > 1000 for _, scan, *_ in placed)
+    maps = [(positions, sides) for _, _, positions, sides in frames if len(sides)]
+    assert maps and set(maps[-1][1]) <= {0, 1}
+    assert np.abs(maps[-1][0]).max() < 12.0  # within the room
+    assert recorded(tmp_path / "live.rrd") == set(ENTITIES)
+
+
+def test_what_a_scan_does_not_tell_is_drawn_and_cleared(tmp_path):
+    rr = pytest.importorskip("rerun")
+    from nvm.viewer import RunLog
+
+    logged = {}
+
+    class Stream:
+        def log(self, entity, what, static=False):
+            logged[entity] = what
+
+    log = RunLog(Stream())
+    log.unobserved((1.0, 2.0, 3.0), [[0.0, 1.0, 0.0]], [])
+    arrows = logged["world/unobserved_translations"]
+    assert isinstance(arrows, rr.Arrows3D)
+    np.testing.assert_allclose(arrows.vectors.as_arrow_array().flatten().to_numpy(), [0, 1, 0, 0, -1, 0])
+    assert isinstance(logged["world/body/unobserved_rotations"], rr.Clear)
+
+
+def test_a_viewer_that_fails_does_not_end_the_run(tmp_path, rng, monkeypatch, capsys):
+    pytest.importorskip("rerun")
+    from sequences import write_sequence
+
+    from nvm import viewer
+
+    def fail(self, *frame):
+        raise OSError("the viewer was closed")
+
+    monkeypatch.setattr(viewer.RunFollower, "_show", fail)
+    sequence = write_sequence(tmp_path / "walk", rng)
+    arguments = ["run", str(sequence), "--out", str(tmp_path / "out"), "--record", str(tmp_path / "live.rrd")]
+    assert main(arguments) == 0
+    assert "no longer shown: the viewer was closed" in capsys.readouterr().err
+    assert len(read_trajectory(tmp_path / "out" / "trajectory.tum").times) > 50
 
 
 def test_watching_needs_rerun_and_says_so(folder, monkeypatch, capsys):

@@ -17,6 +17,7 @@
 #include "app/results.hpp"
 #include "app/run_files.hpp"
 #include "app/run_options.hpp"
+#include "app/run_stream.hpp"
 #include "app/run_summary.hpp"
 #include "app/run_verdict.hpp"
 #include "app/say.hpp"
@@ -31,6 +32,7 @@ namespace {
 struct RunArguments {
   std::string input;
   std::string folder;
+  std::string stream;
   PriorArguments prior;
   RunOptionArguments options;
 };
@@ -48,15 +50,20 @@ std::unique_ptr<lio::Pipeline> make_pipeline(
 
 using ScanProcess = std::function<lio::FrameResult(const lio::Scan&)>;
 
-/// Gives `pipeline` a scan and the readings of the IMU until then, and `session` what came of it.
+/// Gives `pipeline` a scan and the readings of the IMU until then, and `session` and `stream` what
+/// came of it.
 ScanProcess scan_process(
-    io::SequenceReader& reader, lio::Pipeline& pipeline, SessionRecorder& session) {
+    io::SequenceReader& reader,
+    lio::Pipeline& pipeline,
+    SessionRecorder& session,
+    RunStream& stream) {
   return [&](const lio::Scan& scan) {
     for (const lio::ImuSample& sample : reader.imu_until(pipeline.imu_needed_until(scan.t_end))) {
       pipeline.add_imu(sample);
     }
     lio::FrameResult frame = pipeline.process(scan);
     session.add(frame, pipeline);
+    stream.add(frame, pipeline);
     return frame;
   };
 }
@@ -89,6 +96,7 @@ void run(const RunArguments& arguments, RunOptions& options) {
   const auto pipeline = make_pipeline(arguments.prior, options, reader->info());
   const Eigen::Vector3d origin = origin_of(arguments.prior);
   const Interruption interruption;
+  RunStream stream(arguments.stream);
   io::ResultFolder results(arguments.folder);
   announce_unfinished(results);
   const auto begin = std::chrono::steady_clock::now();
@@ -96,7 +104,7 @@ void run(const RunArguments& arguments, RunOptions& options) {
   SessionRecorder session(results.path(), pipeline->map());
   Ending ending = process(
       *reader,
-      scan_process(*reader, *pipeline, session),
+      scan_process(*reader, *pipeline, session, stream),
       interruption,
       RunFiles(results.path(), origin),
       summary);
@@ -135,6 +143,8 @@ void add_run_command(CLI::App& app) {
       arguments->input,
       "Folder of PCD, PLY or KITTI .bin scans, nvm sequence folder, or ROS 1 bag");
   command->add_option("--out", arguments->folder, "Folder of the results");
+  command->add_option(
+      "--stream", arguments->stream, "File or pipe for a viewer: scans and map as the run goes on");
   add_prior_options(*command, arguments->prior);
   add_run_options(*command, arguments->options);
   command->callback([arguments] {
