@@ -12,6 +12,8 @@ import numpy as np
 
 from . import load
 
+TEXTS = ("status", "why", "unobserved")  # columns of frames.csv
+
 
 class ResultError(RuntimeError):
     """A folder or file that holds no results, and what is wrong with it."""
@@ -69,13 +71,12 @@ def read_cloud(path) -> Cloud:
 
 
 def read_frames(path) -> dict:
-    """Reads a frames.csv: numbers as float arrays, the columns `status` and `why` as lists."""
+    """Reads a frames.csv: numbers as float arrays, texts as lists."""
     with open(path, newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     names = rows[0].keys() if rows else ()
     columns = {name: [row[name] for row in rows] for name in names}
-    texts = ("status", "why")
-    return {k: v if k in texts else np.array(v, dtype=float) for k, v in columns.items()}
+    return {k: v if k in TEXTS else np.array(v, dtype=float) for k, v in columns.items()}
 
 
 def read_results(path) -> Results:

@@ -25,7 +25,7 @@ assert np.all(y_with < 0.1)
 """,
     "odometry": """
 import numpy as np
-assert statuses.count("tracking") > 70
+assert statuses.count("tracking") > 60
 moved = results.trajectory.positions[-1] - results.trajectory.positions[0]
 assert np.linalg.norm(moved) < 0.05  # once around
 """,
@@ -52,7 +52,7 @@ def test_there_are_five_without_outputs():
 @pytest.mark.parametrize("name", WHAT_HOLDS)
 def test_a_notebook_runs(name, tmp_path, monkeypatch):
     monkeypatch.setenv("PATH", os.pathsep.join([str(pathlib.Path(sys.executable).parent), os.environ["PATH"]]))
-    monkeypatch.setenv("PYTHONPATH", str(TESTS))
+    monkeypatch.setenv("PYTHONPATH", os.pathsep.join([str(TESTS), os.environ.get("PYTHONPATH", "")]))
     notebook = nbformat.read(NOTEBOOKS / f"{name}.ipynb", as_version=4)
     notebook.cells.append(nbformat.v4.new_code_cell(WHAT_HOLDS[name]))
     nbclient.NotebookClient(notebook, timeout=120, kernel_name="python3", resources={"metadata": {"path": tmp_path}}).execute()

@@ -11,7 +11,7 @@ from nvm.cli import main
 from nvm.results import ResultError, read_results, read_trajectory
 
 COUNT = 40
-FRAMES = "time,status,why,unobserved_directions,deskew_ms,normals_ms,optimize_ms,map_update_ms\n"
+FRAMES = "time,status,why,unobserved_directions,unobserved,deskew_ms,normals_ms,optimize_ms,map_update_ms\n"
 
 
 def poses():
@@ -30,7 +30,7 @@ def folder(tmp_path, rng):
     folder = tmp_path / "out"
     folder.mkdir()
     np.savetxt(folder / "trajectory.tum", poses(), fmt="%.9f")
-    rows = [f'{t:.9f},{"weak" if i == 5 else "tracking"},"a ""word"", or two",1,1,2,3,4\n' for i, t in enumerate(poses()[:, 0])]
+    rows = [f'{t:.9f},{"weak" if i == 5 else "tracking"},"a ""word"", or two",1,"",1,2,3,4\n' for i, t in enumerate(poses()[:, 0])]
     (folder / "frames.csv").write_text(FRAMES + "".join(rows))
     voxel_map = nvm.VoxelMap()
     for y, facing in ((0.0, -1.0), (0.1, 1.0)):
@@ -140,7 +140,7 @@ def test_a_run_is_shown_while_it_goes_on(tmp_path, rng, monkeypatch):
     rows = (tmp_path / "out" / "frames.csv").read_text().splitlines()
     assert len(frames) == len(rows) - 1
     placed = [frame for frame in frames if frame[0]["T_map_body"]]
-    poses = read_trajectory(tmp_path / "out" / "trajectory.tum")
+    poses = read_results(tmp_path / "out").trajectory
     np.testing.assert_allclose([head["T_map_body"][:3] for head, *_ in placed], poses.positions, atol=1e-8)
     assert all(len(scan) > 1000 for _, scan, *_ in placed)
     maps = [(positions, sides) for _, _, positions, sides in frames if len(sides)]
