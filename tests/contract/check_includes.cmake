@@ -1,6 +1,6 @@
 # cmake -D root=SOURCE_DIR -P check_includes.cmake
 # Refuses an include against the direction of the layers, in the core a library beyond its two, a
-# source file that does not include its own header first, and a file that has grown too long.
+# source file that does not include its own header first, and a file that has grown too long, tests included.
 cmake_minimum_required(VERSION 3.22)
 
 set(layers core geometry normal map registration adapters config lio io sim eval survey merge app)
@@ -61,6 +61,18 @@ foreach(layer IN LISTS layers)
         list(APPEND problems "${file}: longer than ${max_lines} lines")
       endif()
     endforeach()
+  endforeach()
+endforeach()
+
+foreach(folder benchmarks examples ros tests)
+  file(GLOB_RECURSE files RELATIVE ${root} ${root}/${folder}/*.hpp ${root}/${folder}/*.cpp)
+  foreach(file IN LISTS files)
+    file(READ ${root}/${file} text)
+    string(REGEX MATCHALL "\n" line_ends "${text}")
+    list(LENGTH line_ends line_count)
+    if(line_count GREATER max_lines)
+      list(APPEND problems "${file}: longer than ${max_lines} lines")
+    endif()
   endforeach()
 endforeach()
 

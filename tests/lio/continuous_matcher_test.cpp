@@ -146,5 +146,35 @@ TEST_F(ContinuousMatcherTest, SolvesTheProblemOfBothPoses) {
   EXPECT_LT((pose_covariance(filter) - expected).norm(), 0.01 * expected.norm());
 }
 
+// A motion that was wrong at the scan's begin has smeared the points; afterwards they lie where
+// they were measured.
+TEST_F(ContinuousMatcherTest, PutsThePointsWhereTheMotionOfBothPosesHasThem) {
+  set_ages(0.1);
+  align_.max_iterations = 10;
+  const std::vector<Eigen::Vector3f> true_points = scan_.scan.points;
+  const Eigen::Vector3f turn(0.004F, -0.003F, 0.005F);
+  const Eigen::Vector3f shift(0.01F, 0.02F, -0.015F);
+  const auto smear = [&](Eigen::Vector3f& p, float age) {
+    p += 10.0F * age * (turn.cross(p) + shift);
+  };
+  for (std::size_t i = 0; i < true_points.size(); ++i) {
+    smear(scan_.scan.points[i], scan_.scan.ages[i]);
+    smear(scan_.scan.viewpoints[i], scan_.scan.ages[i]);
+  }
+  predicted_.T_world_body = truth_;
+  ContinuousMatcher matcher(align_, 0.1 * kResidualDeviation, Executor());  // surer than the ties
+  ErrorStateFilter filter = predicted_filter();
+  PreparedScan scan = scan_;
+  ASSERT_TRUE(matcher.match(*map_, scan, filter).accepted);
+  float left = 0.0F;
+  float left_of_viewpoints = 0.0F;
+  for (std::size_t i = 0; i < true_points.size(); ++i) {
+    left = std::max(left, (scan.scan.points[i] - true_points[i]).norm());
+    left_of_viewpoints = std::max(left_of_viewpoints, scan.scan.viewpoints[i].norm());
+  }
+  EXPECT_LT(left, 0.006F);                // of 0.05
+  EXPECT_LT(left_of_viewpoints, 0.001F);  // of 0.027
+}
+
 }  // namespace
 }  // namespace nvm::lio

@@ -12,22 +12,14 @@
 
 #include "lio/inertial_pipeline.hpp"
 #include "lio/pipeline_options.hpp"
+#include "lio/room_pipeline.hpp"
 #include "lio/room_recording.hpp"
 
 namespace nvm::lio {
 namespace {
 
+using test::options_for;
 using test::RoomRecording;
-
-PipelineOptions options_for(PipelineType type, MapType map = MapType::kNvm) {
-  PipelineOptions options;
-  options.type = type;
-  options.map_type = map;
-  options.map.capacity = 20'000;
-  options.inertial.normals.min_radius = 0.3;  // the recording's scans are thin
-  options.inertial.normals.max_radius = 0.6;
-  return options;
-}
 
 std::unique_ptr<Pipeline> fast_lio() { return make_pipeline(options_for(PipelineType::kFastLio)); }
 
@@ -240,47 +232,6 @@ TEST(InertialPipeline, TakesNoHarmFromReadingsThatAreLateRepeatedOrNotFinite) {
     disturbed->add_imu(recording.imu(i).back());
   }
 }
-
-class ADegenerateView : public ::testing::TestWithParam<PipelineType> {
- protected:
-  FrameResult last_result(
-      const std::function<bool(const Eigen::Vector3d&)>& sees, double duration = 4.0) {
-    recording_.duration = duration;
-    recording_.points_per_scan = 6000;
-    recording_.sees = sees;
-    const auto pipeline = make_pipeline(options_for(GetParam()));
-    return recording_.run(*pipeline).back();
-  }
-
-  RoomRecording recording_;
-};
-
-TEST_P(ADegenerateView, OfTheFloorAloneIsReportedAndLeftToTheImu) {
-  const FrameResult result = last_result([](const Eigen::Vector3d& p) { return p.z() < -1.49; });
-  EXPECT_EQ(result.status, FrameStatus::kTracking);
-  EXPECT_GE(result.degenerate_directions, 3);
-  EXPECT_LT(recording_.error(result), 0.15);
-}
-
-TEST_P(ADegenerateView, OfACorridorIsReportedAndLeftToTheImu) {
-  const FrameResult result =
-      last_result([](const Eigen::Vector3d& p) { return std::abs(p.y()) > 2.95 || p.z() < -1.45; });
-  EXPECT_EQ(result.status, FrameStatus::kTracking);
-  EXPECT_GE(result.degenerate_directions, 1);
-  EXPECT_LT(recording_.error(result), 0.15);
-}
-
-TEST_P(ADegenerateView, ThatLastsIsSaidThoughTheFilterIsSure) {
-  const FrameResult result =
-      last_result([](const Eigen::Vector3d& p) { return p.z() < -1.49; }, 7.0);
-  EXPECT_EQ(result.status, FrameStatus::kDegenerate);
-}
-
-INSTANTIATE_TEST_SUITE_P(
-    Pipelines,
-    ADegenerateView,
-    ::testing::Values(
-        PipelineType::kFastLio, PipelineType::kCtLio, PipelineType::kCtLioContinuous));
 
 TEST(InertialPipeline, EstimatesAWrongExtrinsicWhenAsked) {
   RoomRecording recording;
