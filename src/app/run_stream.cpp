@@ -74,7 +74,7 @@ std::vector<MapPoint> RunStream::map_when_due(const lio::Pipeline& pipeline) {
   constexpr std::chrono::seconds kPeriod(1);
   constexpr int kShare = 20;  // of the run's time that maps take, at most: one in so many
   const auto begin = std::chrono::steady_clock::now();
-  if (begin < next_map_) {
+  if (begin < next_map_ || pipeline.map().size() == 0) {
     return {};
   }
   std::vector<MapPoint> points = pipeline.map().points();
