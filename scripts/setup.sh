@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what nvm needs on Debian 12 (Ubuntu alike); takes no time when everything is there.
 #   scripts/setup.sh [--developer] [--pcl] [--ros]
-#     --developer  also what formats, lints, fuzzes, documents, measures coverage and runs tests for ARM
+#     --developer  also what formats, lints, fuzzes, documents, measures coverage, runs tests for ARM and compiles for others
 #     --pcl        also PCL, for the adapter and its comparison (large), and ROS, for the hosts' setting
 #     --ros        also ROS 1, for the node and its tests
 set -euo pipefail
@@ -23,7 +23,12 @@ packages=(
 )
 for option in "$@"; do
   case $option in
-    --developer) packages+=(clang libclang-rt-dev clang-format clang-tidy doxygen gcovr dpkg-dev g++-aarch64-linux-gnu qemu-user) ;;
+    --developer)
+      packages+=(
+        clang libclang-rt-dev libomp-dev clang-format clang-tidy doxygen gcovr dpkg-dev qemu-user
+        g++-aarch64-linux-gnu g++-i686-linux-gnu g++-mingw-w64-x86-64-posix
+      )
+      ;;
     --pcl) packages+=(libpcl-dev libroscpp-dev libpcl-conversions-dev) ;;
     --ros)
       packages+=(
