@@ -34,7 +34,7 @@ for option in "$@"; do
       packages+=(
         libroscpp-dev libtopic-tools-dev libtf2-ros-dev libdiagnostic-msgs-dev libnav-msgs-dev libstd-srvs-dev
         rosout python3-rosbag python3-roslaunch python3-rostopic python3-rosservice python3-tf2-ros
-        python3-diagnostic-msgs python3-nav-msgs python3-std-srvs
+        python3-diagnostic-msgs python3-nav-msgs python3-sensor-msgs python3-std-srvs
       )
       ;;
     *) sed -n '2,6s/^# //p' "$0" && exit 2 ;;
