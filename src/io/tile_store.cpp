@@ -10,6 +10,7 @@
 
 #include "io/file.hpp"
 #include "io/map_files.hpp"
+#include "io/stays_below.hpp"
 #include "nvm/map/serialization.hpp"
 #include "nvm/map/sighting.hpp"
 
@@ -75,6 +76,9 @@ MapCloud read_tile_store(const std::string& folder) {
   const Index index = read_index(folder + "/index.json");
   std::vector<MapPoint> points;
   for (const Tile& tile : index.tiles) {
+    if (!stays_below(tile.file)) {
+      fail(folder + "/index.json", "names a file outside the store: " + tile.file);
+    }
     const std::string path = folder + "/" + tile.file;
     const std::size_t before = points.size();
     for (const MapPoint& point : load_map(path).points()) {

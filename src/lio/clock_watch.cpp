@@ -93,7 +93,7 @@ bool ClockWatch::look(const MotionHistory& history, double begin) {
   const double variance =
       kLeastVariance + there.sq_difference / degrees_of_freedom / there.sq_change;
   const double time = turns.back().end;
-  variance_ += kWander * kWander * std::max(0.0, time - time_);
+  variance_ += kWander * kWander * (w_ > 0.0 ? std::max(0.0, time - time_) : 0.0);
   time_ = time;
   const double gain = variance_ / (variance_ + variance);
   left_ += gain * (offset - left_);

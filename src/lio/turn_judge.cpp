@@ -57,6 +57,7 @@ double ImuJudge::take_clock_offset() { return std::exchange(untaken_offset_, 0.0
 ImuVerdict ImuJudge::judge_turns(double max_mismatch, bool are_poses_apart) {
   constexpr double kAgrees = 0.1;
   constexpr double kSmallTurn = 0.25;  // [rad]
+  constexpr double kMaxOffset = 0.6;   // in all: of other recordings something always fits [s]
   const std::optional<TurnComparison> turns = compare_turns(history_);
   if (!turns) {
     return ImuVerdict::kUnknown;
@@ -64,7 +65,8 @@ ImuVerdict ImuJudge::judge_turns(double max_mismatch, bool are_poses_apart) {
   const bool is_explained = turns->best_mismatch < kAgrees;
   const bool is_turned = angle_of(turns->rotation) > kSmallTurn;
   has_offset_ = turns->offset != 0.0 && is_explained;
-  if (has_offset_ && options_.learns_time_offset) {
+  if (has_offset_ && options_.learns_time_offset &&
+      std::abs(clocks_.mended() + turns->offset) <= kMaxOffset) {
     mend_clock(turns->offset);
     return ImuVerdict::kMended;
   }

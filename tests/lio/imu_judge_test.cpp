@@ -216,6 +216,23 @@ TEST(ImuJudge, FindsTheOffsetOfTheClocks) {
   }
 }
 
+// Of another recording's readings some offset fits best in every stretch.
+TEST(ImuJudge, DoesNotMoveTheClockOnAndOn) {
+  Witness witness;
+  witness.motion.turning = 1.5;
+  witness.reading = [&](double t) {
+    ImuSample sample = witness.motion.imu(t - 0.35);
+    sample.time = t;
+    return sample;
+  };
+  EXPECT_EQ(witness.verdict(8.0), ImuVerdict::kMended);
+  EXPECT_NEAR(witness.judge.take_clock_offset(), 0.35, 0.015);
+  witness.judge.forget();  // and readings that have not been moved
+  EXPECT_NE(witness.verdict(8.0), ImuVerdict::kMended);
+  EXPECT_EQ(witness.judge.take_clock_offset(), 0.0);
+  EXPECT_FALSE(witness.judge.findings().empty());
+}
+
 TEST(ImuJudge, RefusesFactorsThatAreNoNumbers) {
   ImuInputOptions options;
   options.accel_scale = std::nan("");

@@ -149,6 +149,8 @@ TEST_F(WallsProgramTest, ADamagedStoreIsRefused) {
       "store/index.json",
       std::string(index).replace(index.find("\"version\":1"), 11, "\"version\":2"));
   expect_failure(walls, "has version 2");
+  write("store/index.json", std::string(index).replace(index.find("tiles/0.nvm"), 11, "../0.nvm"));
+  expect_failure(walls, "names a file outside the store: ../0.nvm");
   write("store/index.json", index.substr(0, index.size() / 2));
   expect_failure(walls, "is not the index of a store");
   std::filesystem::remove(path("store/index.json"));
