@@ -76,7 +76,7 @@ class InertialPipeline final : public Pipeline {
   const LioMap& map() const override { return *map_; }
   const DeskewedScan& scan() const override;
   const std::vector<Eigen::Vector3f>& normals() const override;
-  void start_at(const Pose& T_map_body) override { start_ = T_map_body; }
+  void start_at(const Pose& T_map_body) override;
   std::vector<std::string> findings() const override;
 
   /// The filter, once initialised.

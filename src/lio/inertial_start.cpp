@@ -66,6 +66,15 @@ bool InertialPipeline::is_to_go_alone(double time) {
   return !is_imu_usable_ || (patience >= 0.0 && (initializer_.is_hopeless() || is_silent));
 }
 
+// What the filter knows of a pose that was lost says nothing of another: the IMU joins again.
+void InertialPipeline::start_at(const Pose& T_map_body) {
+  start_ = T_map_body;
+  if (filter_ || is_alone_) {
+    motion_ = ConstantVelocity({LidarOdometry::kLongAgo, T_map_body});
+    go_alone(motion_);
+  }
+}
+
 void InertialPipeline::go_alone(const ConstantVelocity& motion) {
   alone_.continue_from(motion);
   motion_ = motion;

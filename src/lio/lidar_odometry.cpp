@@ -51,9 +51,7 @@ LidarOdometry::LidarOdometry(
   }
 }
 
-// Long ago, so that it tells no velocity and a scan that does not fit there counts as lost.
 void LidarOdometry::start_at(const Pose& T_map_body) {
-  constexpr double kLongAgo = -1e9;  // [s]
   motion_.emplace(StampedPose{kLongAgo, T_map_body});
 }
 

@@ -25,6 +25,10 @@ namespace nvm::lio {
 /// at a low scan rate are followed.
 class LidarOdometry final : public Pipeline {
  public:
+  /// When a start was, so that it tells no velocity and a scan that does not fit there counts as
+  /// lost [s].
+  static constexpr double kLongAgo = -1e9;
+
   /// Throws std::invalid_argument for bad options.
   LidarOdometry(
       const LidarOdometryOptions& options, std::shared_ptr<LioMap> map, const Executor& executor);

@@ -137,14 +137,20 @@ std::vector<Pose> PlaceSearch::guesses_for(const Eigen::Matrix3d& R_level_scan) 
 std::vector<Place> PlaceSearch::candidates(
     const std::vector<Eigen::Vector3f>& points,
     const std::vector<Eigen::Vector3f>& normals,
-    const Eigen::Vector3d& up) {
+    const Eigen::Vector3d& up,
+    const std::optional<Pose>& likely) {
   if (!choose_keypoints(points, normals)) {
     return {};
   }
   const Eigen::Matrix3d R_level_scan =
       Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  std::vector<Pose> guesses = guesses_for(R_level_scan);
+  if (likely) {
+    const std::vector<Pose> near = around(*likely);
+    guesses.insert(guesses.begin(), near.begin(), near.end());
+  }
   std::vector<Place> distinct;
-  for (Place& place : places_from(guesses_for(R_level_scan))) {
+  for (Place& place : places_from(guesses)) {
     const bool is_new = std::all_of(distinct.begin(), distinct.end(), [&](const Place& other) {
       return is_elsewhere(place.T_map_scan, other.T_map_scan);
     });
@@ -158,8 +164,9 @@ std::vector<Place> PlaceSearch::candidates(
 Place PlaceSearch::anywhere(
     const std::vector<Eigen::Vector3f>& points,
     const std::vector<Eigen::Vector3f>& normals,
-    const Eigen::Vector3d& up) {
-  const std::vector<Place> places = candidates(points, normals, up);
+    const Eigen::Vector3d& up,
+    const std::optional<Pose>& likely) {
+  const std::vector<Place> places = candidates(points, normals, up, likely);
   if (!places.empty()) {
     return judged(places, map_, ScanWitness(points, normals));
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "lio/executor.hpp"
@@ -30,17 +31,20 @@ class PlaceSearch {
       const Pose& T_map_scan);
 
   /// Places anywhere in the map, which is level, as the scan's `up` (unit, scan frame) makes the
-  /// scan: those that most of it fits, best first and no two the same.
+  /// scan: those that most of it fits, best first and no two the same. Places around a `likely`
+  /// T_map_scan are among those that are tried.
   std::vector<Place> candidates(
       const std::vector<Eigen::Vector3f>& points,
       const std::vector<Eigen::Vector3f>& normals,
-      const Eigen::Vector3d& up);
+      const Eigen::Vector3d& up,
+      const std::optional<Pose>& likely = std::nullopt);
 
   /// The one of these that is beyond doubt. Not found when two explain the scan about equally well.
   Place anywhere(
       const std::vector<Eigen::Vector3f>& points,
       const std::vector<Eigen::Vector3f>& normals,
-      const Eigen::Vector3d& up);
+      const Eigen::Vector3d& up,
+      const std::optional<Pose>& likely = std::nullopt);
 
  private:
   bool choose_keypoints(

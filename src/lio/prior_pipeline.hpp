@@ -10,6 +10,7 @@
 
 #include "lio/deskew.hpp"
 #include "lio/executor.hpp"
+#include "lio/loss_watch.hpp"
 #include "lio/pipeline.hpp"
 #include "lio/pipeline_options.hpp"
 #include "lio/place_search.hpp"
@@ -26,6 +27,10 @@ struct Start {
 /// Runs a pipeline in a map that others have made: finds the place of the first scans near the
 /// start, or anywhere in the map without one, and has the pipeline go on from there. Until then
 /// frames are kInitializing and say why.
+///
+/// When the pose is lost, or no scan could tell it for so long that the sensor may have been
+/// carried anywhere, the whole map is searched again, and until a place in it is beyond doubt
+/// frames are kLost and say why.
 class PriorPipeline final : public Pipeline {
  public:
   /// `prior` has points with normals. Extended, it takes the scans in; else it stays as it is.
@@ -44,9 +49,14 @@ class PriorPipeline final : public Pipeline {
   const DeskewedScan& scan() const override { return pipeline_->scan(); }
   const std::vector<Eigen::Vector3f>& normals() const override { return pipeline_->normals(); }
   void start_at(const Pose& T_map_body) override { start_ = Start{T_map_body, false}; }
-  std::vector<std::string> findings() const override { return pipeline_->findings(); }
+  std::vector<std::string> findings() const override;
 
  private:
+  FrameResult search(const Scan& scan);
+  void lose(double time);
+  void believe(const FrameResult& result);
+  bool is_doubtful(const FrameResult& result) const;
+  double contradiction(const Pose& T_map_lidar) const;
   Place find(const Scan& scan);
   Eigen::Matrix3d level() const;
   Pose guess() const;
@@ -58,8 +68,13 @@ class PriorPipeline final : public Pipeline {
   Executor executor_;
   NormalEstimator normal_estimator_;
   std::unique_ptr<Pipeline> pipeline_;
-  PlaceSearch search_;
+  std::optional<PlaceSearch> search_;
+  LossWatch watch_;
   bool is_placed_ = false;
+  std::optional<Pose> last_pose_;         ///< T_map_body of the last frame that was believed
+  double usual_share_ = 0.0;              ///< of the keypoints, that fitted of late
+  double last_speed_ = 0.0;               ///< [m/s]
+  bool was_believed_ = false;             ///< the last frame
   std::optional<double> first_try_;       ///< time of the first scan that was searched for [s]
   double next_try_ = -1e300;              ///< [s]
   std::optional<Eigen::Vector3d> force_;  ///< mean specific force of late [m/s^2], body frame
