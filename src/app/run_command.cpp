@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "app/change_recorder.hpp"
 #include "app/doing.hpp"
 #include "app/prior_options.hpp"
 #include "app/results.hpp"
@@ -50,20 +51,28 @@ std::unique_ptr<lio::Pipeline> make_pipeline(
 
 using ScanProcess = std::function<lio::FrameResult(const lio::Scan&)>;
 
-/// Gives `pipeline` a scan and the readings of the IMU until then, and `session` and `stream` what
-/// came of it.
+/// What takes note of the frames of a run, besides its files.
+struct Recorders {
+  SessionRecorder session;
+  ChangeRecorder changes;
+  RunStream stream;
+
+  void add(const lio::FrameResult& frame, const lio::Pipeline& pipeline) {
+    session.add(frame, pipeline);
+    changes.add(frame, pipeline);
+    stream.add(frame, pipeline);
+  }
+};
+
+/// Gives `pipeline` a scan and the readings of the IMU until then, and `recorders` what came of it.
 ScanProcess scan_process(
-    io::SequenceReader& reader,
-    lio::Pipeline& pipeline,
-    SessionRecorder& session,
-    RunStream& stream) {
+    io::SequenceReader& reader, lio::Pipeline& pipeline, Recorders& recorders) {
   return [&](const lio::Scan& scan) {
     for (const lio::ImuSample& sample : reader.imu_until(pipeline.imu_needed_until(scan.t_end))) {
       pipeline.add_imu(sample);
     }
     lio::FrameResult frame = pipeline.process(scan);
-    session.add(frame, pipeline);
-    stream.add(frame, pipeline);
+    recorders.add(frame, pipeline);
     return frame;
   };
 }
@@ -89,6 +98,35 @@ void warn(const std::vector<std::string>& warnings) {
   }
 }
 
+/// Returns what has changed, in a line; empty when nothing was watched.
+std::string write_changes(
+    const std::string& folder,
+    const ChangeRecorder& changes,
+    const Eigen::Vector3d& origin,
+    Ending& ending) {
+  std::string line;
+  if (changes.is_of_use()) {
+    attempt(
+        {folder + "/changes.ply"}, ending, [&] { line = changes.write(folder, origin) + "\n"; });
+  }
+  return line;
+}
+
+void print_results(
+    const std::string& folder,
+    const RunSummary& summary,
+    std::size_t map_points,
+    double wall_seconds) {
+  fmt::print("{}", summary.timing_table());
+  fmt::print(
+      "{}: {} poses of {} scans, {} map points, {:.1f} s\n",
+      folder,
+      summary.poses(),
+      summary.frames(),
+      map_points,
+      wall_seconds);
+}
+
 void run(const RunArguments& arguments, RunOptions& options) {
   check(arguments.prior, arguments.folder);
   check_apart(arguments.input, arguments.folder);
@@ -96,15 +134,17 @@ void run(const RunArguments& arguments, RunOptions& options) {
   const auto pipeline = make_pipeline(arguments.prior, options, reader->info());
   const Eigen::Vector3d origin = origin_of(arguments.prior);
   const Interruption interruption;
-  RunStream stream(arguments.stream);
   io::ResultFolder results(arguments.folder);
   announce_unfinished(results);
   const auto begin = std::chrono::steady_clock::now();
   RunSummary summary(options.pipeline.inertial.returns.max_count);
-  SessionRecorder session(results.path(), pipeline->map());
+  Recorders recorders{
+      SessionRecorder(results.path(), pipeline->map()),
+      ChangeRecorder(pipeline->map()),
+      RunStream(arguments.stream)};
   Ending ending = process(
       *reader,
-      scan_process(*reader, *pipeline, session, stream),
+      scan_process(*reader, *pipeline, recorders),
       interruption,
       RunFiles(results.path(), origin),
       summary);
@@ -118,16 +158,11 @@ void run(const RunArguments& arguments, RunOptions& options) {
     write_timing(results.path(), summary, wall.count());
   });
   write_map(results, pipeline->map(), origin, ending);
-  attempt({session.path()}, ending, [&] { session.finish(); });
+  attempt({recorders.session.path()}, ending, [&] { recorders.session.finish(); });
+  const std::string changed = write_changes(results.path(), recorders.changes, origin, ending);
   results.publish();
-  fmt::print("{}", summary.timing_table());
-  fmt::print(
-      "{}: {} poses of {} scans, {} map points, {:.1f} s\n",
-      arguments.folder,
-      summary.poses(),
-      summary.frames(),
-      map_points,
-      wall.count());
+  print_results(arguments.folder, summary, map_points, wall.count());
+  fmt::print("{}", changed);
   check_ending(ending, arguments.folder);
   check_usable(summary, map_points, arguments.folder);
 }

@@ -5,19 +5,14 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "app/is_on_from.hpp"
+
 namespace nvm::app {
 
 namespace {
 
 /// Without sightings: what is asked where it was made must lie on a surface.
 constexpr lio::KeypointOptions kThinned{0.15, 5000, 0, 0};
-
-bool is_on_from(const Pose& last, const Pose& now) {
-  constexpr double kStep = 0.5;  // [m]
-  constexpr double kTurn = 0.5;  // [rad]
-  return (now.translation() - last.translation()).norm() > kStep ||
-         so3_log(last.linear().transpose() * now.linear()).norm() > kTurn;
-}
 
 }  // namespace
 

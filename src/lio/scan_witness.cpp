@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "lio/covered_face.hpp"
@@ -15,30 +14,13 @@ namespace nvm::lio {
 
 namespace {
 
-constexpr float kPi = 3.14159265F;
-constexpr int kRows = 120;                                // of directions, from pole to pole
-constexpr int kColumns = 2 * kRows;                       // around
-constexpr float kCell = kPi / static_cast<float>(kRows);  // [rad]
 constexpr float kFaceRadius = 0.05F;  // around a point of the map, where its face is looked for [m]
-constexpr float kMinRange = 0.4F;     // nearer faces are about the sensor's carrier [m]
-constexpr double kMaxRange = 10.0;    // [m]
-constexpr float kMinCosine = 0.3F;    // of the incidence
+constexpr std::size_t kMostPoints = 25'000;
+constexpr float kMinRange = 0.4F;   // nearer faces are about the sensor's carrier [m]
+constexpr double kMaxRange = 10.0;  // [m]
+constexpr float kMinCosine = 0.3F;  // of the incidence
 /// How far noise, and the pose's error, may put a point off its face [m].
 constexpr float kNoise = 0.05F;
-
-std::size_t cell_at(int row, int column) {
-  return static_cast<std::size_t>(row * kColumns + (column + kColumns) % kColumns);
-}
-
-int row_of(const Eigen::Vector3f& direction) {
-  const float elevation = std::asin(std::clamp(direction.z(), -1.0F, 1.0F));
-  return std::clamp(static_cast<int>((elevation + 0.5F * kPi) / kCell), 0, kRows - 1);
-}
-
-int column_of(const Eigen::Vector3f& direction) {
-  const float azimuth = std::atan2(direction.y(), direction.x());
-  return std::clamp(static_cast<int>((azimuth + kPi) / kCell), 0, kColumns - 1);
-}
 
 }  // namespace
 
@@ -71,27 +53,16 @@ struct ScanWitness::Face {
 };
 
 ScanWitness::ScanWitness(
-    const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& normals) {
-  constexpr std::size_t kMostPoints = 25'000;
-  const std::size_t step = points.size() / kMostPoints + 1;
-  std::vector<std::pair<std::size_t, std::size_t>> order;  // cell and index
-  for (std::size_t i = 0; i < points.size(); i += step) {
-    const float range = points[i].norm();
-    if (range > kMinRange && !normals[i].isZero()) {
-      const Eigen::Vector3f direction = points[i] / range;
-      order.emplace_back(cell_at(row_of(direction), column_of(direction)), i);
-    }
-  }
-  std::sort(order.begin(), order.end());
-  cells_.assign(static_cast<std::size_t>(kRows * kColumns) + 1, 0);
-  for (const auto& [cell, index] : order) {
-    ++cells_[cell + 1];
+    const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& normals)
+    : lines_(points, kMinRange, [&, step = points.size() / kMostPoints + 1](std::size_t i) {
+        return i % step == 0 && !normals[i].isZero();
+      }) {
+  for (const std::uint32_t index : lines_.indices()) {
     points_.push_back(points[index]);
     normals_.push_back(normals[index]);
     ranges_.push_back(points[index].norm());
     directions_.push_back(points[index] / ranges_.back());
   }
-  std::partial_sum(cells_.begin(), cells_.end(), cells_.begin());
 }
 
 Testimonies ScanWitness::testify(const VoxelMap& map, const Pose& T_map_scan) const {
@@ -118,35 +89,23 @@ Testimonies ScanWitness::testify(const VoxelMap& map, const Pose& T_map_scan) co
 
 /// Has the points speak against the place whose lines of sight pass through `face`.
 void ScanWitness::look_through(const Face& face, Question& question) const {
-  const Eigen::Vector3f direction = face.center / face.range;
-  const float reach = kFaceRadius / face.range / kCell;
-  const float flat = std::max(0.1F, std::hypot(direction.x(), direction.y()));
-  const int row = row_of(direction);
-  const int column = column_of(direction);
-  const int rows = static_cast<int>(reach) + 1;
-  const int columns = static_cast<int>(reach / flat) + 1;
   const float height = -face.normal.dot(face.center);  // of the origin above the face
-  for (int i = std::max(0, row - rows); i <= std::min(kRows - 1, row + rows); ++i) {
-    for (int j = column - columns; j <= column + columns; ++j) {
-      const std::size_t cell = cell_at(i, j);
-      for (std::uint32_t line = cells_[cell]; line < cells_[cell + 1]; ++line) {
-        const float descent = -face.normal.dot(directions_[line]);
-        if (question.answers[line] == Testimony::kAgainst ||
-            ranges_[line] * descent < height + kNoise) {
-          continue;
-        }
-        const Eigen::Vector3f passage = (height / descent) * directions_[line];
-        if ((passage - face.center).squaredNorm() < kFaceRadius * kFaceRadius &&
-            is_covered(
-                question.map,
-                question.T_map_scan * passage.cast<double>(),
-                question.R_map_scan * face.normal,
-                question.context)) {
-          question.answers[line] = Testimony::kAgainst;
-        }
-      }
+  lines_.for_each_near(face.center / face.range, kFaceRadius / face.range, [&](std::size_t line) {
+    const float descent = -face.normal.dot(directions_[line]);
+    if (question.answers[line] == Testimony::kAgainst ||
+        ranges_[line] * descent < height + kNoise) {
+      return;
     }
-  }
+    const Eigen::Vector3f passage = (height / descent) * directions_[line];
+    if ((passage - face.center).squaredNorm() < kFaceRadius * kFaceRadius &&
+        is_covered(
+            question.map,
+            question.T_map_scan * passage.cast<double>(),
+            question.R_map_scan * face.normal,
+            question.context)) {
+      question.answers[line] = Testimony::kAgainst;
+    }
+  });
 }
 
 /// Whether the map has a face like the point's that it lies on, or only one right beside it.

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "lio/sight_lines.hpp"
 #include "nvm/geometry/pose.hpp"
 #include "nvm/map/voxel_map.hpp"
 
@@ -49,12 +50,12 @@ class ScanWitness {
   void look_through(const Face& face, Question& question) const;
   Testimony lies_on(std::size_t point, Question& question) const;
 
-  // In the order of the cells of their directions.
+  SightLines lines_;
+  // In their order.
   std::vector<Eigen::Vector3f> points_;      ///< [m]
   std::vector<Eigen::Vector3f> normals_;     ///< unit
   std::vector<Eigen::Vector3f> directions_;  ///< unit
   std::vector<float> ranges_;                ///< [m]
-  std::vector<std::uint32_t> cells_;         ///< where the points of each cell begin
 };
 
 }  // namespace nvm::lio
