@@ -29,6 +29,13 @@ std::unique_ptr<LioMap> usable(const PipelineOptions& options, VoxelMap prior, b
   return continued_map(std::move(prior), !extends);
 }
 
+std::string found_again(double silence) {
+  std::ostringstream text;
+  text << "found again in the prior map " << std::fixed << std::setprecision(1) << silence
+       << " s after the pose was lost";
+  return text.str();
+}
+
 }  // namespace
 
 PriorPipeline::PriorPipeline(
@@ -120,21 +127,20 @@ FrameResult PriorPipeline::search(const Scan& scan) {
     result.message = "not found in the prior map: " + place.why_not;
     return result;
   }
+  const std::optional<Start> start = start_;
   const Pose T_map_body = place.T_map_scan * body_.T_body_lidar.inverse();
   start_ = Start{T_map_body, false};
   pipeline_->start_at(T_map_body);
+  const FrameStatus searching = result.status;
   result = pipeline_->process(scan);
-  is_placed_ =
-      result.status != FrameStatus::kInitializing && result.status != FrameStatus::kSkipped;
-  if (is_believed(result.status)) {
-    if (watch_.is_lost()) {
-      std::ostringstream text;
-      text << "found again in the prior map " << std::fixed << std::setprecision(1)
-           << watch_.silence(result.time) << " s after the pose was lost";
-      result.message = text.str();
-    }
+  is_placed_ = is_believed(result.status);
+  if (is_placed_) {
+    result.message = watch_.is_lost() ? found_again(watch_.silence(result.time)) : result.message;
     believe(result);
     was_believed_ = true;
+  } else if (result.status == FrameStatus::kLost) {  // a place that the pipeline does not confirm
+    result.status = searching;
+    start_ = start;
   }
   return result;
 }
@@ -151,14 +157,16 @@ void PriorPipeline::lose(double time) {
   }
 }
 
-// A search of the whole map takes the time of many scans: the longer it fails the rarer it is.
+// A search of the whole map takes the time of many scans, and the next scan shows about the same:
+// the longer it fails the rarer it is.
 bool PriorPipeline::is_to_search(double time) {
+  constexpr double kPause = 0.25;    // [s]
   constexpr double kPatience = 0.1;  // of the time since the first try
   first_try_ = first_try_.value_or(time);
   if (!start_ && time < next_try_) {
     return false;
   }
-  next_try_ = time + kPatience * (time - *first_try_);
+  next_try_ = time + kPause + kPatience * (time - *first_try_);
   return true;
 }
 

@@ -140,7 +140,7 @@ TEST_P(CarriedAway, IsFoundAgainBetweenTwoScans) {
 TEST_P(CarriedAway, IsNotFoundWhereTheMapDoesNotReach) {
   PriorPipeline pipeline = this->pipeline();
   const std::vector<FrameResult> frames =
-      run(pipeline, {{0.1, 2.5, kHere}, {2.5, 3.8, kThere, View::kElsewhere}});
+      run(pipeline, {{0.1, 2.5, kHere}, {2.5, 3.3, kThere, View::kElsewhere}});
   EXPECT_EQ(frames.back().status, FrameStatus::kLost);
   EXPECT_THAT(frames.back().message, HasSubstr("not found in the prior map"));
   EXPECT_THAT(pipeline.findings(), Contains(HasSubstr("to the end, not found again")));

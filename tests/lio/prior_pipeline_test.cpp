@@ -19,7 +19,9 @@ namespace nvm::lio {
 namespace {
 
 using test::RoomRecording;
+using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 PipelineOptions options_for(PipelineType type) {
   PipelineOptions options;
@@ -107,6 +109,19 @@ TEST(PriorPipeline, FindsThePlaceByItself) {
   const std::vector<FrameResult> results = recording().run(pipeline);
   EXPECT_EQ(results.back().status, FrameStatus::kTracking);
   EXPECT_LT(worst_error(recording(), T_map_room, results), 0.05);
+}
+
+TEST(PriorPipeline, IsNotLostWhereNoPlaceWasConfirmed) {
+  PipelineOptions options = options_for(PipelineType::kLidarOnly);
+  options.lidar_only.align.min_residuals = 100'000;  // more than any scan has
+  const Pose T_map_room = room_in_map(0.0);
+  PriorPipeline pipeline(options, prior_map(T_map_room), Start{T_map_room, true}, false);
+  RoomRecording recording;
+  recording.duration = 0.5;
+  for (const FrameResult& result : recording.run(pipeline)) {
+    EXPECT_EQ(result.status, FrameStatus::kInitializing);
+  }
+  EXPECT_THAT(pipeline.findings(), Not(Contains(HasSubstr("lost"))));
 }
 
 TEST(PriorPipeline, TakesGravityFromTheScansInATiltedMap) {
