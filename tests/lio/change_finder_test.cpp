@@ -162,6 +162,60 @@ TEST_F(Changes, AreNotPeopleWhoPass) {
   EXPECT_THAT(finder.added(), IsEmpty());
 }
 
+TEST_F(Changes, AreNotPeopleWhoStandForAWhile) {
+  const VoxelMap map = map_of(rooms(kShut));
+  ChangeFinder finder(map);
+  const auto add = [&](const std::string& more, int count) {
+    const sim::Scene scene = sim::parse_scene(rooms(kShut + more), "test");
+    const sim::RayCaster rays(scene);
+    for (int i = 0; i < count; ++i) {
+      const Look seen = look(rays, at(-2, 3, 0), 12'000, kRangeNoise);
+      finder.add(seen.scan, seen.normals, at(-2, 3, 0));
+    }
+  };
+  add("  - {name: person, min: [-4.2, 1.0, 0.1], max: [-3.9, 1.4, 1.7]}", 4);
+  EXPECT_FALSE(finder.added().empty());
+  add("", 25);
+  EXPECT_THAT(finder.added(), IsEmpty());
+}
+
+/// Four scans whose lines of sight pass a plate from x = 0 to 1 m at `x` [m], and `later` ones
+/// whose lines end there.
+std::vector<ChangedPlace> gone_where_lines_pass(double x, int later = 0) {
+  MapOptions options;
+  options.min_point_distance = 0.07;
+  VoxelMap map(options);
+  std::vector<Eigen::Vector3f> plate;
+  for (int i = 0; i < 15 * 15; ++i) {
+    plate.emplace_back(
+        static_cast<float>(i % 15) / 14.0F, 2.0F, static_cast<float>(i / 15) / 14.0F);
+  }
+  map.insert(plate, std::vector<Eigen::Vector3f>(plate.size(), {0.0F, -1.0F, 0.0F}));
+  ChangeFinder finder(map);
+  for (int k = 0; k < 4 + later; ++k) {
+    Pose T_map_scan = Pose::Identity();
+    T_map_scan.translation() << 0.5 + 0.1 * k, 0.0, 0.5;
+    DeskewedScan scan;
+    for (int i = 0; i < 50; ++i) {
+      const Eigen::Vector3d passage(x, 2.0, 0.02 * i);
+      scan.points.push_back(((k < 4 ? 2.0 : 1.0) * (T_map_scan.inverse() * passage)).cast<float>());
+    }
+    scan.viewpoints.assign(scan.size(), Eigen::Vector3f::Zero());
+    finder.add(scan, std::vector<Eigen::Vector3f>(scan.size(), {0.0F, -1.0F, 0.0F}), T_map_scan);
+  }
+  return finder.gone();
+}
+
+TEST(ChangeFinder, TakesNoFaceForGoneThatLaterScansMeet) {
+  EXPECT_FALSE(gone_where_lines_pass(0.8).empty());
+  EXPECT_THAT(gone_where_lines_pass(0.8, 4), IsEmpty());
+}
+
+TEST(ChangeFinder, TakesNoFaceForGoneBesideWhoseEdgeOneSees) {
+  EXPECT_FALSE(gone_where_lines_pass(0.8).empty());
+  EXPECT_THAT(gone_where_lines_pass(1.03), IsEmpty());
+}
+
 TEST_F(Changes, ComeTheSameWhateverTheirOrder) {
   std::vector<ChangedSurface> surfaces;
   for (int i = 0; i < 40; ++i) {
