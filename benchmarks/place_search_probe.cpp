@@ -2,9 +2,10 @@
 // Copyright (c) 2026 The nvm authors
 
 // How often the place of a scan is found in the map of a shipped scene, and how often a wrong one
-// is claimed: the map is made of the scene's route at true poses, the scans are made at random
-// places and headings where a person can stand.
-//   nvm_place_search_probe [SCENE] [SENSOR] [STARTS] [SEED]
+// is claimed: the map is made of the scene's route at true poses, or MAP that a run has left, whose
+// frame lies at x, y, z, yaw in the scene; the scans are made at random places and headings where a
+// person can stand.
+//   nvm_place_search_probe [SCENE] [SENSOR] [STARTS] [SEED] [MAP X Y Z YAW]
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -19,6 +20,7 @@
 #include "lio/deskew.hpp"
 #include "lio/pipeline_options.hpp"
 #include "lio/place_search.hpp"
+#include "nvm/map/serialization.hpp"
 #include "nvm/normal/normal_estimator.hpp"
 #include "sim/lidar.hpp"
 #include "sim/scene_file.hpp"
@@ -132,6 +134,15 @@ sim::Route random_start(const Setup& setup, std::mt19937_64& random) {
   }
 }
 
+/// The pose that x, y, z and yaw tell.
+Pose frame_at(char** arguments) {
+  Pose T_world_map = Pose::Identity();
+  T_world_map.translation() << std::atof(arguments[0]), std::atof(arguments[1]),
+      std::atof(arguments[2]);
+  T_world_map.linear() = nvm::so3_exp({0.0, 0.0, std::atof(arguments[3])});
+  return T_world_map;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -145,7 +156,10 @@ int main(int argc, char** argv) {
   const Setup setup{scene, rays, sim::find_sensor(sensor_name), options};
   const lio::PipelineOptions pipeline;
   Scanner scanner(pipeline);
-  const nvm::VoxelMap map = map_of(setup, scanner, pipeline.map);
+  const bool is_given = argc > 9;
+  const nvm::VoxelMap map =
+      is_given ? nvm::load_map(argv[5]) : map_of(setup, scanner, pipeline.map);
+  const Pose T_world_map = is_given ? frame_at(argv + 6) : Pose::Identity();
   lio::PlaceSearch search(map, lio::Executor(1));
   std::printf("%s, %s: %zu map points\n", scene_name.c_str(), sensor_name.c_str(), map.size());
   std::mt19937_64 random(seed);
@@ -161,7 +175,7 @@ int main(int argc, char** argv) {
     const lio::Place place =
         search.anywhere(scan.points, scan.normals, scan.T_world_lidar.linear().transpose().col(2));
     times.push_back(nvm::benchmarks::cpu_seconds() - begin);
-    const Pose error = place.T_map_scan.inverse() * scan.T_world_lidar;
+    const Pose error = (T_world_map * place.T_map_scan).inverse() * scan.T_world_lidar;
     const double distance = error.translation().norm();
     const bool is_right = distance < 0.1;
     const Eigen::Vector3d at = scan.T_world_lidar.translation();
