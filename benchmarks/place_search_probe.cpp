@@ -17,9 +17,9 @@
 #include <string>
 #include <vector>
 
-#include "lio/deskew.hpp"
-#include "lio/pipeline_options.hpp"
-#include "lio/place_search.hpp"
+#include "lio/pipeline/pipeline_options.hpp"
+#include "lio/place/place_search.hpp"
+#include "lio/scan/deskew.hpp"
 #include "nvm/map/serialization.hpp"
 #include "nvm/normal/normal_estimator.hpp"
 #include "sim/lidar.hpp"
@@ -52,7 +52,7 @@ class Scanner {
       : returns_(options.inertial.returns), normals_(options.inertial.normals) {}
 
   PreparedScan prepare(const sim::Lidar& lidar, const sim::Motion& motion, std::size_t index) {
-    const lio::Scan scan = lidar.scan(index).scan;
+    const nvm::Scan scan = lidar.scan(index).scan;
     lio::NavState end;
     end.time = scan.t_end;
     end.T_world_body = motion.pose(scan.t_end);
@@ -160,7 +160,7 @@ int main(int argc, char** argv) {
   const nvm::VoxelMap map =
       is_given ? nvm::load_map(argv[5]) : map_of(setup, scanner, pipeline.map);
   const Pose T_world_map = is_given ? frame_at(argv + 6) : Pose::Identity();
-  lio::PlaceSearch search(map, lio::Executor(1));
+  lio::PlaceSearch search(map, nvm::Executor(1));
   std::printf("%s, %s: %zu map points\n", scene_name.c_str(), sensor_name.c_str(), map.size());
   std::mt19937_64 random(seed);
   int found = 0, wrong = 0, refused = 0;

@@ -48,8 +48,10 @@ endfunction()
 set(nvm_component_headers ${CMAKE_INSTALL_INCLUDEDIR}/nvm/components)
 foreach(component IN LISTS nvm_compiled)
   nvm_install_component(${component})
+endforeach()
+foreach(room IN LISTS nvm_compiled ITEMS common) # common is headers alone
   install(
-    DIRECTORY ${PROJECT_SOURCE_DIR}/src/${component}
+    DIRECTORY ${PROJECT_SOURCE_DIR}/src/${room}
     DESTINATION ${nvm_component_headers}
     FILES_MATCHING PATTERN "*.hpp")
 endforeach()

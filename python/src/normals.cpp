@@ -99,7 +99,7 @@ struct Estimator {
 NormalResult estimate(Estimator& self, nb::handle points, nb::handle viewpoint, int threads) {
   constexpr std::size_t kWorthThreads = 4096;
   const Vectors positions(points, "points");
-  const lio::Executor executor = make_executor(threads, positions.size(), kWorthThreads);
+  const Executor executor = make_executor(threads, positions.size(), kWorthThreads);
   const auto run = [&](const auto& viewpoints) -> NormalResult {
     const nb::gil_scoped_release no_gil;
     const std::lock_guard lock(self.mutex);

@@ -14,7 +14,7 @@
 #include "arrays.hpp"
 #include "bind.hpp"
 #include "config/schema.hpp"
-#include "lio/pipeline_options.hpp"
+#include "lio/pipeline/pipeline_options.hpp"
 #include "nvm/map/serialization.hpp"
 #include "nvm/map/sighting.hpp"
 #include "odometry_docs.hpp"
@@ -70,7 +70,7 @@ class Odometry {
   }
 
   void add_imu(nb::handle times, nb::handle gyro, nb::handle accel) {
-    const std::vector<lio::ImuSample> samples = imu_samples(times, gyro, accel);
+    const std::vector<ImuSample> samples = imu_samples(times, gyro, accel);
     const nb::gil_scoped_release no_gil;
     const std::lock_guard lock(mutex_);
     if (is_alone_ && !samples.empty()) {
@@ -78,7 +78,7 @@ class Odometry {
           "nvm: the first scan came before any IMU reading, so that poses come from scans alone: "
           "add readings before scans, or say so with {'pipeline': 'lidar_only'}");
     }
-    for (const lio::ImuSample& sample : samples) {
+    for (const ImuSample& sample : samples) {
       pipeline_->add_imu(sample);
     }
     has_imu_ = has_imu_ || !samples.empty();
@@ -90,7 +90,7 @@ class Odometry {
     return pipeline_->imu_needed_until(time);
   }
 
-  lio::FrameResult add_scan(const lio::Scan& scan) {
+  lio::FrameResult add_scan(const Scan& scan) {
     const nb::gil_scoped_release no_gil;
     const std::lock_guard lock(mutex_);
     if (!is_started_ && !has_imu_ && options_.type == lio::PipelineType::kAutomatic) {

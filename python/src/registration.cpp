@@ -83,7 +83,7 @@ AlignResult align(
   const Vectors directions(normals, "normals");
   require_same_size(directions.size(), "normals", positions.size(), "points");
   const Pose start = pose_from(T_map_scan, "T_map_scan");
-  const lio::Executor executor = make_executor(threads, positions.size(), kWorthThreads);
+  const Executor executor = make_executor(threads, positions.size(), kWorthThreads);
   return map.read([&](const VoxelMap& voxel_map) {
     const std::lock_guard lock(self.mutex);
     return self.aligner.align(voxel_map, positions, directions, start, executor);

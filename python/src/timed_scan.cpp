@@ -48,8 +48,8 @@ std::vector<std::pair<double, Eigen::Vector3d>> finite_points(
   return finite;
 }
 
-lio::TimedPoint timed_point(const Eigen::Vector3d& position, double dt) {
-  lio::TimedPoint point;
+TimedPoint timed_point(const Eigen::Vector3d& position, double dt) {
+  TimedPoint point;
   point.x = static_cast<float>(position.x());
   point.y = static_cast<float>(position.y());
   point.z = static_cast<float>(position.z());
@@ -75,14 +75,14 @@ nb::object rows_of(nb::handle object, bool is_single) {
 
 }  // namespace
 
-lio::Scan timed_scan(nb::handle points, nb::handle times, nb::handle begin, nb::handle end) {
+Scan timed_scan(nb::handle points, nb::handle times, nb::handle begin, nb::handle end) {
   const Vectors positions(points, "points");
   const Numbers stamps(expanded(times, positions), "times");
   require_same_size(stamps.size(), "times", positions.size(), "points");
   const auto finite = finite_points(positions, stamps);
   const double first = finite.empty() ? 0.0 : finite.front().first;
   const double last = finite.empty() ? 0.0 : finite.back().first;
-  lio::Scan scan;
+  Scan scan;
   double origin = 0.0;  // of the times, to make them count from t_begin
   if (begin.is_none()) {
     require_fine(stamps);
@@ -106,7 +106,7 @@ lio::Scan timed_scan(nb::handle points, nb::handle times, nb::handle begin, nb::
   return scan;
 }
 
-std::vector<lio::ImuSample> imu_samples(nb::handle times, nb::handle gyro, nb::handle accel) {
+std::vector<ImuSample> imu_samples(nb::handle times, nb::handle gyro, nb::handle accel) {
   const nb::object array = nb::module_::import_("numpy").attr("asarray")(times);
   const bool is_single = nb::cast<int>(array.attr("ndim")) == 0;
   const Numbers stamps(is_single ? nb::object(array.attr("reshape")(1)) : array, "times");
@@ -115,9 +115,9 @@ std::vector<lio::ImuSample> imu_samples(nb::handle times, nb::handle gyro, nb::h
   require_same_size(rates.size(), "gyro", stamps.size(), "times");
   require_same_size(forces.size(), "accel", stamps.size(), "times");
   require_fine(stamps);
-  std::vector<lio::ImuSample> samples;
+  std::vector<ImuSample> samples;
   for (std::size_t i = 0; i < stamps.size(); ++i) {
-    const lio::ImuSample sample{stamps[i], rates[i], forces[i]};
+    const ImuSample sample{stamps[i], rates[i], forces[i]};
     if (!std::isfinite(sample.time) || !sample.gyro.allFinite() || !sample.accel.allFinite()) {
       throw std::invalid_argument(
           "nvm: row " + std::to_string(i) + " of the IMU readings is not finite: leave it out");

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "lio/sensor_data.hpp"
+#include "common/sensor_data.hpp"
 
 namespace nvm::python {
 
@@ -15,12 +15,12 @@ namespace nvm::python {
 /// kept as they are, and the scan ends at `end`, by default with its last point. Throws ValueError
 /// for other shapes, for times before `begin` or after `end`, and for absolute ones in float32,
 /// which lost their digits.
-lio::Scan timed_scan(
+Scan timed_scan(
     nanobind::handle points, nanobind::handle times, nanobind::handle begin, nanobind::handle end);
 
 /// Readings of an IMU: a time, (3,) and (3,), or arrays (N,), (N, 3) and (N, 3). Throws ValueError
 /// for other shapes and for numbers that are not finite.
-std::vector<lio::ImuSample> imu_samples(
+std::vector<ImuSample> imu_samples(
     nanobind::handle times, nanobind::handle gyro, nanobind::handle accel);
 
 }  // namespace nvm::python

@@ -74,7 +74,7 @@ Answers answer(
     const Vectors& points,
     const Vectors* normals,
     const NearestSearch& search,
-    const lio::Executor& executor) {
+    const Executor& executor) {
   constexpr std::size_t kBlock = 512;
   return self.read([&](const VoxelMap& map) {
     const std::size_t places = points.size() * search.count;

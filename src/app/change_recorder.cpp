@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "app/is_on_from.hpp"
-#include "io/ply.hpp"
-#include "io/point_records.hpp"
+#include "io/cloud/ply.hpp"
+#include "io/cloud/point_records.hpp"
 
 namespace nvm::app {
 

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "lio/change_finder.hpp"
-#include "lio/pipeline.hpp"
+#include "lio/change/change_finder.hpp"
+#include "lio/pipeline/pipeline.hpp"
 
 namespace nvm::app {
 

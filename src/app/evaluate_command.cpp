@@ -13,9 +13,9 @@
 #include "app/doing.hpp"
 #include "app/interruption.hpp"
 #include "app/say.hpp"
-#include "eval/evaluation.hpp"
-#include "eval/region.hpp"
-#include "eval/report.hpp"
+#include "eval/report/evaluation.hpp"
+#include "eval/report/report.hpp"
+#include "eval/walls/region.hpp"
 
 namespace nvm::app {
 namespace {

@@ -9,9 +9,9 @@
 #include "app/doing.hpp"
 #include "app/interruption.hpp"
 #include "app/results.hpp"
-#include "io/map_cloud.hpp"
-#include "io/map_files.hpp"
-#include "io/map_origin.hpp"
+#include "io/result/map_cloud.hpp"
+#include "io/result/map_files.hpp"
+#include "io/result/map_origin.hpp"
 #include "nvm/map/serialization.hpp"
 #include "nvm/map/sighting.hpp"
 

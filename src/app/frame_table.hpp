@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "lio/pipeline.hpp"
+#include "lio/pipeline/pipeline.hpp"
 
 namespace nvm::app {
 

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "app/doing.hpp"
-#include "io/map_origin.hpp"
+#include "io/result/map_origin.hpp"
 #include "nvm/map/serialization.hpp"
 #include "nvm/map/sighting.hpp"
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <system_error>
 
-#include "io/file.hpp"
+#include "io/file/file.hpp"
 
 namespace nvm::app {
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "lio/constant_velocity.hpp"
+#include "lio/state/constant_velocity.hpp"
 
 namespace nvm::app {
 
@@ -24,7 +24,7 @@ MapBuilder::MapBuilder(const lio::PipelineOptions& options, const Trajectory& T_
   end_.T_body_lidar = options.inertial.T_imu_lidar;
 }
 
-bool MapBuilder::add(const lio::Scan& scan) {
+bool MapBuilder::add(const Scan& scan) {
   const std::optional<Pose> end = pose_at(trajectory_, scan.t_end);
   if (!end) {
     return false;

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "app/insert_totals.hpp"
-#include "lio/executor.hpp"
-#include "lio/lio_map.hpp"
-#include "lio/pipeline_options.hpp"
-#include "lio/scan_preparer.hpp"
+#include "common/executor.hpp"
+#include "lio/map/lio_map.hpp"
+#include "lio/pipeline/pipeline_options.hpp"
+#include "lio/scan/scan_preparer.hpp"
 #include "nvm/geometry/trajectory.hpp"
 
 namespace nvm::app {
@@ -22,7 +22,7 @@ class MapBuilder {
 
   /// Adds a scan, deskewed along the trajectory. False when the trajectory says nothing about the
   /// scan's time.
-  bool add(const lio::Scan& scan);
+  bool add(const Scan& scan);
 
   const lio::LioMap& map() const { return *map_; }
   const InsertTotals& inserted() const { return inserted_; }
@@ -34,7 +34,7 @@ class MapBuilder {
   lio::NavState end_;
   Trajectory trajectory_;
   Trajectory placed_;
-  lio::Executor executor_;
+  Executor executor_;
   lio::ScanPreparer preparer_;
   std::unique_ptr<lio::LioMap> map_;
   std::vector<lio::MotionSegment> segments_;

@@ -19,11 +19,11 @@
 #include "app/results.hpp"
 #include "app/run_options.hpp"
 #include "app/say.hpp"
-#include "eval/association.hpp"
-#include "io/file.hpp"
-#include "io/map_origin.hpp"
-#include "io/sequence_reader.hpp"
-#include "io/trajectory_io.hpp"
+#include "eval/trajectory/association.hpp"
+#include "io/file/file.hpp"
+#include "io/result/map_origin.hpp"
+#include "io/sequence/sequence_reader.hpp"
+#include "io/sequence/trajectory_io.hpp"
 
 namespace nvm::app {
 
@@ -49,7 +49,7 @@ bool is_kitti(const std::string& path) {
 std::vector<double> scan_times(const std::string& input, const io::SequenceOptions& options) {
   std::vector<double> times;
   const auto reader = io::open_sequence(input, options);
-  while (const std::optional<lio::Scan> scan = reader->next_scan()) {
+  while (const std::optional<Scan> scan = reader->next_scan()) {
     times.push_back(scan->t_end);
   }
   return times;
@@ -133,7 +133,7 @@ void build_map(
   io::ResultFolder results(arguments.folder);
   announce_unfinished(results);
   ScanTimes scans;
-  Ending ending = use_scans(reader, interruption, [&](const lio::Scan& scan) {
+  Ending ending = use_scans(reader, interruption, [&](const Scan& scan) {
     scans.add(scan.t_end);
     builder.add(scan);
     return "";

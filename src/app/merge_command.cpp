@@ -18,11 +18,11 @@
 #include "app/given_pose.hpp"
 #include "app/interruption.hpp"
 #include "app/results.hpp"
-#include "io/file.hpp"
-#include "io/map_files.hpp"
-#include "io/map_origin.hpp"
-#include "io/pending_files.hpp"
-#include "lio/lio_map.hpp"
+#include "io/file/file.hpp"
+#include "io/file/pending_files.hpp"
+#include "io/result/map_files.hpp"
+#include "io/result/map_origin.hpp"
+#include "lio/map/lio_map.hpp"
 #include "merge/merge.hpp"
 
 namespace nvm::app {
@@ -108,7 +108,7 @@ void merge_folders(const MergeArguments& arguments) {
   for (const std::string& guess : arguments.guesses) {
     guesses.push_back(guess_from(guess));
   }
-  const lio::Executor executor(arguments.threads);
+  const Executor executor(arguments.threads);
   doing("making way for " + arguments.out, [&] { check(arguments); });
   const std::vector<merge::Session> sessions =
       doing("loading the runs", [&] { return merge::read_sessions(arguments.folders); });

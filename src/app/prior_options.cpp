@@ -13,9 +13,9 @@
 #include "app/doing.hpp"
 #include "app/given_pose.hpp"
 #include "app/say.hpp"
-#include "io/file.hpp"
-#include "io/map_origin.hpp"
-#include "lio/prior_pipeline.hpp"
+#include "io/file/file.hpp"
+#include "io/result/map_origin.hpp"
+#include "lio/pipeline/prior_pipeline.hpp"
 #include "nvm/map/serialization.hpp"
 
 namespace nvm::app {

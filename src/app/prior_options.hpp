@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "lio/pipeline_options.hpp"
+#include "lio/pipeline/pipeline_options.hpp"
 
 namespace CLI {
 class App;

@@ -13,10 +13,10 @@
 #include "app/failure.hpp"
 #include "app/progress_bar.hpp"
 #include "app/say.hpp"
-#include "io/file.hpp"
-#include "io/map_files.hpp"
-#include "io/map_origin.hpp"
-#include "io/pending_path.hpp"
+#include "io/file/file.hpp"
+#include "io/file/pending_path.hpp"
+#include "io/result/map_files.hpp"
+#include "io/result/map_origin.hpp"
 
 namespace nvm::app {
 
@@ -58,14 +58,14 @@ void print_notes(const io::SequenceInfo& info) {
 Ending use_scans(
     io::SequenceReader& reader,
     const Interruption& interruption,
-    const std::function<std::string(const lio::Scan&)>& use) {
+    const std::function<std::string(const Scan&)>& use) {
   Ending ending;
   ProgressBar progress(reader.info().scan_count);
   std::size_t scans = 0;
   try {
     while (interruption.signal() == 0) {
       const bool is_used = doing(fmt::format("working on scan {}", ++scans), [&] {
-        const std::optional<lio::Scan> scan = reader.next_scan();
+        const std::optional<Scan> scan = reader.next_scan();
         if (scan) {
           progress.step(use(*scan));
         }

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "app/interruption.hpp"
-#include "io/result_folder.hpp"
-#include "io/sequence_reader.hpp"
-#include "lio/lio_map.hpp"
+#include "io/result/result_folder.hpp"
+#include "io/sequence/sequence_reader.hpp"
+#include "lio/map/lio_map.hpp"
 
 namespace nvm::app {
 
@@ -38,7 +38,7 @@ struct Ending {
 Ending use_scans(
     io::SequenceReader& reader,
     const Interruption& interruption,
-    const std::function<std::string(const lio::Scan&)>& use);
+    const std::function<std::string(const Scan&)>& use);
 
 /// Does `action`. What goes wrong is added to the error of `ending`, and `files` are removed then.
 void attempt(

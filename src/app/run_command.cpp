@@ -23,8 +23,8 @@
 #include "app/run_verdict.hpp"
 #include "app/say.hpp"
 #include "app/session_recorder.hpp"
-#include "io/sequence_reader.hpp"
-#include "lio/pipeline_options.hpp"
+#include "io/sequence/sequence_reader.hpp"
+#include "lio/pipeline/pipeline_options.hpp"
 
 namespace nvm::app {
 
@@ -49,7 +49,7 @@ std::unique_ptr<lio::Pipeline> make_pipeline(
   return doing(making_map(pipeline.map), [&] { return lio::make_pipeline(pipeline); });
 }
 
-using ScanProcess = std::function<lio::FrameResult(const lio::Scan&)>;
+using ScanProcess = std::function<lio::FrameResult(const Scan&)>;
 
 /// What takes note of the frames of a run, besides its files.
 struct Recorders {
@@ -67,8 +67,8 @@ struct Recorders {
 /// Gives `pipeline` a scan and the readings of the IMU until then, and `recorders` what came of it.
 ScanProcess scan_process(
     io::SequenceReader& reader, lio::Pipeline& pipeline, Recorders& recorders) {
-  return [&](const lio::Scan& scan) {
-    for (const lio::ImuSample& sample : reader.imu_until(pipeline.imu_needed_until(scan.t_end))) {
+  return [&](const Scan& scan) {
+    for (const ImuSample& sample : reader.imu_until(pipeline.imu_needed_until(scan.t_end))) {
       pipeline.add_imu(sample);
     }
     lio::FrameResult frame = pipeline.process(scan);
@@ -84,7 +84,7 @@ Ending process(
     const Interruption& interruption,
     RunFiles files,
     RunSummary& summary) {
-  return use_scans(reader, interruption, [&](const lio::Scan& scan) {
+  return use_scans(reader, interruption, [&](const Scan& scan) {
     const lio::FrameResult frame = process_scan(scan);
     summary.add(frame, scan.points.size());
     files.add(frame);

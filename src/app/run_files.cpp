@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "app/frame_table.hpp"
-#include "io/trajectory_io.hpp"
+#include "io/sequence/trajectory_io.hpp"
 
 namespace nvm::app {
 

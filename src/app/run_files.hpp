@@ -7,7 +7,7 @@
 
 #include "app/line_file.hpp"
 #include "app/run_summary.hpp"
-#include "lio/pipeline.hpp"
+#include "lio/pipeline/pipeline.hpp"
 
 namespace nvm::app {
 

@@ -9,7 +9,7 @@
 #include "app/doing.hpp"
 #include "app/say.hpp"
 #include "config/schema.hpp"
-#include "io/sequence_options.hpp"
+#include "io/sequence/sequence_options.hpp"
 #include "nvm/map/storage/map_capacity.hpp"
 
 namespace nvm::app {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "io/sequence_reader.hpp"
-#include "lio/pipeline_options.hpp"
+#include "io/sequence/sequence_reader.hpp"
+#include "lio/pipeline/pipeline_options.hpp"
 #include "nvm/geometry/pose.hpp"
 
 namespace CLI {

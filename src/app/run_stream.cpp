@@ -8,8 +8,8 @@
 
 #include "app/run_summary.hpp"
 #include "app/stages.hpp"
-#include "io/file.hpp"
-#include "io/point_records.hpp"
+#include "io/cloud/point_records.hpp"
+#include "io/file/file.hpp"
 
 namespace nvm::app {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "lio/pipeline.hpp"
+#include "lio/pipeline/pipeline.hpp"
 
 namespace nvm::app {
 

@@ -13,7 +13,7 @@
 #include "app/main_axis.hpp"
 #include "app/stages.hpp"
 #include "app/time_spans.hpp"
-#include "lio/pipeline.hpp"
+#include "lio/pipeline/pipeline.hpp"
 
 namespace nvm::app {
 

@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 
-#include "io/session_file.hpp"
-#include "lio/keypoints.hpp"
-#include "lio/lio_map.hpp"
-#include "lio/pipeline.hpp"
+#include "io/result/session_file.hpp"
+#include "lio/map/lio_map.hpp"
+#include "lio/pipeline/pipeline.hpp"
+#include "lio/scan/keypoints.hpp"
 
 namespace nvm::app {
 

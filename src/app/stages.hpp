@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "lio/pipeline.hpp"
+#include "lio/pipeline/pipeline.hpp"
 
 namespace nvm::app {
 

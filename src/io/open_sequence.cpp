@@ -8,14 +8,14 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "io/file.hpp"
-#include "io/message_pipe.hpp"
-#include "io/natural_order.hpp"
-#include "io/nvm_sequence_reader.hpp"
-#include "io/ros_bag_reader.hpp"
-#include "io/scan_files.hpp"
-#include "io/scan_folder.hpp"
-#include "io/sequence_reader.hpp"
+#include "io/file/file.hpp"
+#include "io/file/natural_order.hpp"
+#include "io/message/message_pipe.hpp"
+#include "io/message/ros_bag_reader.hpp"
+#include "io/sequence/nvm_sequence_reader.hpp"
+#include "io/sequence/scan_files.hpp"
+#include "io/sequence/scan_folder.hpp"
+#include "io/sequence/sequence_reader.hpp"
 
 namespace nvm::io {
 

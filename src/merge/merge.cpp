@@ -116,7 +116,7 @@ struct Assembly {
 
   /// Places the sessions that overlap with the map as it is now, then adds them. False when there
   /// are none.
-  bool grow(const lio::Executor& executor) {
+  bool grow(const Executor& executor) {
     SessionPlacer placer(map, executor);
     std::vector<std::size_t> placed;
     for (const std::size_t index : waiting) {
@@ -138,7 +138,7 @@ struct Assembly {
 Merged merge_sessions(
     const std::vector<Session>& sessions,
     const std::vector<Pose>& guesses,
-    const lio::Executor& executor) {
+    const Executor& executor) {
   if (sessions.size() < 2) {
     throw std::invalid_argument("merging needs two sessions or more");
   }

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "lio/executor.hpp"
+#include "common/executor.hpp"
 #include "merge/session.hpp"
 #include "merge/session_fit.hpp"
 
@@ -28,6 +28,6 @@ struct Merged {
 Merged merge_sessions(
     const std::vector<Session>& sessions,
     const std::vector<Pose>& guesses,
-    const lio::Executor& executor);
+    const Executor& executor);
 
 }  // namespace nvm::merge

@@ -9,9 +9,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "io/file.hpp"
-#include "io/map_origin.hpp"
-#include "lio/has_planes.hpp"
+#include "io/file/file.hpp"
+#include "io/result/map_origin.hpp"
+#include "lio/map/has_planes.hpp"
 #include "nvm/map/serialization.hpp"
 
 namespace nvm::merge {

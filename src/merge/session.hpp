@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "io/session_file.hpp"
+#include "io/result/session_file.hpp"
 #include "nvm/map/voxel_map.hpp"
 
 namespace nvm::merge {

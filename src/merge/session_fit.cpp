@@ -47,7 +47,7 @@ SessionBody::SessionBody(const std::vector<io::Keyframe>& keyframes) {
 }
 
 SessionFit SessionBody::aligned(
-    const VoxelMap& map, const Pose& T_map_session, const lio::Executor& executor) const {
+    const VoxelMap& map, const Pose& T_map_session, const Executor& executor) const {
   SessionFit fit;
   Pose T_map_center = T_map_session * Eigen::Translation3d(center_);
   for (const double max_plane_distance : {0.3, 0.1}) {

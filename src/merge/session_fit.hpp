@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "io/session_file.hpp"
-#include "lio/executor.hpp"
-#include "lio/scan_witness.hpp"
+#include "common/executor.hpp"
+#include "io/result/session_file.hpp"
+#include "lio/place/scan_witness.hpp"
 #include "nvm/geometry/pose.hpp"
 #include "nvm/map/voxel_map.hpp"
 
@@ -33,7 +33,7 @@ class SessionBody {
   /// The pose near `T_map_session` at which the points lie best on the map's planes that face them:
   /// the session moves as one rigid body.
   SessionFit aligned(
-      const VoxelMap& map, const Pose& T_map_session, const lio::Executor& executor) const;
+      const VoxelMap& map, const Pose& T_map_session, const Executor& executor) const;
 
   /// What all points say of `fit`, whose counts are filled in.
   lio::Testimonies testify(const VoxelMap& map, SessionFit& fit) const;

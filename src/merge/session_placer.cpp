@@ -90,7 +90,7 @@ std::vector<std::size_t> voting_order(std::size_t keyframes) {
   return order;
 }
 
-SessionPlacer::SessionPlacer(const VoxelMap& map, const lio::Executor& executor)
+SessionPlacer::SessionPlacer(const VoxelMap& map, const Executor& executor)
     : map_(map), executor_(executor), search_(map, executor) {}
 
 SessionFit SessionPlacer::place(

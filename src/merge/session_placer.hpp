@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "lio/executor.hpp"
-#include "lio/place_search.hpp"
+#include "common/executor.hpp"
+#include "lio/place/place_search.hpp"
 #include "merge/session_fit.hpp"
 
 namespace nvm::merge {
@@ -21,7 +21,7 @@ std::vector<std::size_t> voting_order(std::size_t keyframes);
 class SessionPlacer {
  public:
   /// `map` outlives the placer.
-  SessionPlacer(const VoxelMap& map, const lio::Executor& executor);
+  SessionPlacer(const VoxelMap& map, const Executor& executor);
 
   /// The pose of a session with `keyframes`, level as the map is; near `guess` when there is one.
   SessionFit place(const std::vector<io::Keyframe>& keyframes, const std::optional<Pose>& guess);
@@ -40,7 +40,7 @@ class SessionPlacer {
       const std::vector<Proposal>& proposals, const SessionBody& body, bool is_guessed) const;
 
   const VoxelMap& map_;
-  lio::Executor executor_;
+  Executor executor_;
   lio::PlaceSearch search_;
 };
 

@@ -74,14 +74,14 @@ class Clock {
 
 }  // namespace
 
-std::vector<lio::ImuSample> simulate_imu(
+std::vector<ImuSample> simulate_imu(
     const Motion& motion, const ImuOptions& options, std::uint64_t seed) {
   Triad gyro(options.gyro, options, seed, Stream::kGyro);
   Triad accelerometer(options.accelerometer, options, seed, Stream::kAccelerometer);
   Clock clock(options, seed);
   const Eigen::Vector3d gravity(0.0, 0.0, -options.gravity);
   const auto count = static_cast<std::size_t>(std::floor(motion.duration() * options.rate)) + 1;
-  std::vector<lio::ImuSample> samples;
+  std::vector<ImuSample> samples;
   samples.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     const double time = static_cast<double>(i) / options.rate;

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "lio/sensor_data.hpp"
+#include "common/sensor_data.hpp"
 #include "sim/motion.hpp"
 #include "sim/random.hpp"
 
@@ -34,7 +34,7 @@ struct ImuOptions {
 };
 
 /// The readings of an IMU that is carried along `motion`, from time 0 to its end.
-std::vector<lio::ImuSample> simulate_imu(
+std::vector<ImuSample> simulate_imu(
     const Motion& motion, const ImuOptions& options, std::uint64_t seed);
 
 }  // namespace nvm::sim

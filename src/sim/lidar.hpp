@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "lio/sensor_data.hpp"
+#include "common/sensor_data.hpp"
 #include "sim/lidar_options.hpp"
 #include "sim/motion.hpp"
 #include "sim/random.hpp"
@@ -33,7 +33,7 @@ struct ReturnTruth {
 
 /// A scan, and the truth about each of its points.
 struct SimulatedScan {
-  lio::Scan scan;
+  Scan scan;
   std::vector<ReturnTruth> truth;
 };
 

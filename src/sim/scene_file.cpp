@@ -9,8 +9,8 @@
 #include <optional>
 #include <stdexcept>
 
-#include "io/file.hpp"
-#include "io/stays_below.hpp"
+#include "io/file/file.hpp"
+#include "io/file/stays_below.hpp"
 #include "sim/scene_reader.hpp"
 #include "sim/shipped_files.hpp"
 

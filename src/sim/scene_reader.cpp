@@ -5,7 +5,7 @@
 #include <array>
 #include <filesystem>
 
-#include "io/stays_below.hpp"
+#include "io/file/stays_below.hpp"
 #include "sim/angles.hpp"
 #include "sim/mesh_file.hpp"
 #include "sim/solid_fields.hpp"

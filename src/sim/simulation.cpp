@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "io/nvm_sequence_writer.hpp"
+#include "io/sequence/nvm_sequence_writer.hpp"
 #include "nvm/core/executor_tbb.hpp"
 #include "nvm/geometry/trajectory.hpp"
 #include "sim/clearance.hpp"

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "eval/oriented_plane.hpp"
+#include "eval/walls/oriented_plane.hpp"
 #include "survey/mask.hpp"
 #include "survey/patch_grid.hpp"
 #include "survey/plane_frame.hpp"

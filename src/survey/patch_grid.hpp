@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "io/map_cloud.hpp"
+#include "io/result/map_cloud.hpp"
 #include "survey/plane_sums.hpp"
 
 namespace nvm::survey {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "eval/oriented_plane.hpp"
+#include "eval/walls/oriented_plane.hpp"
 
 namespace nvm::survey {
 

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "eval/oriented_plane.hpp"
+#include "eval/walls/oriented_plane.hpp"
 
 namespace nvm::survey {
 

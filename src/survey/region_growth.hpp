@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "eval/oriented_plane.hpp"
+#include "eval/walls/oriented_plane.hpp"
 #include "survey/patch_grid.hpp"
 
 namespace nvm::survey {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "eval/oriented_plane.hpp"
-#include "io/map_cloud.hpp"
+#include "eval/walls/oriented_plane.hpp"
+#include "io/result/map_cloud.hpp"
 #include "survey/survey_options.hpp"
 
 namespace nvm::survey {

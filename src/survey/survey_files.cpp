@@ -10,7 +10,7 @@
 #include <memory>
 #include <vector>
 
-#include "io/pending_path.hpp"
+#include "io/file/pending_path.hpp"
 #include "survey/dxf.hpp"
 #include "survey/plan.hpp"
 #include "survey/plan_drawing.hpp"

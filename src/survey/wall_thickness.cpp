@@ -7,7 +7,7 @@
 #include <map>
 #include <utility>
 
-#include "eval/thickness.hpp"
+#include "eval/walls/thickness.hpp"
 
 namespace nvm::survey {
 

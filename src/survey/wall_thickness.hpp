@@ -37,9 +37,9 @@ struct WallThickness {
   std::array<double, 2> rms{};          ///< of their distances to their own face [m]
 };
 
-/// Measures the wall between two faces as `nvm evaluate` does (eval/thickness.hpp): in pieces of
-/// at most 3 m, so that a map that is bent along a long wall bends both its faces, off the edges of
-/// what both faces show. Nothing when no piece has enough points.
+/// Measures the wall between two faces as `nvm evaluate` does (eval/walls/thickness.hpp): in pieces
+/// of at most 3 m, so that a map that is bent along a long wall bends both its faces, off the edges
+/// of what both faces show. Nothing when no piece has enough points.
 std::optional<WallThickness> measure_wall(
     const SurveyCloud& cloud, const std::vector<Face>& faces, const FacePair& pair);
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "io/map_cloud.hpp"
-#include "io/map_origin.hpp"
-#include "io/session_file.hpp"
+#include "io/result/map_cloud.hpp"
+#include "io/result/map_origin.hpp"
+#include "io/result/session_file.hpp"
 #include "nvm/map/serialization.hpp"
 #include "nvm/map/sighting.hpp"
 #include "program_fixture.hpp"

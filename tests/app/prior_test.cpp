@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <string>
 
-#include "io/trajectory_io.hpp"
+#include "io/sequence/trajectory_io.hpp"
 #include "nvm/map/serialization.hpp"
 #include "program_fixture.hpp"
 

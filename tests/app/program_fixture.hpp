@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "io/sequence/trajectory_io.hpp"
 #include "io/temporary_folder.hpp"
-#include "io/trajectory_io.hpp"
 #include "nvm/geometry/trajectory.hpp"
 #include "support/rng.hpp"
 #include "support/room.hpp"

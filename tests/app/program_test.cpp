@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "io/map_cloud.hpp"
-#include "io/trajectory_io.hpp"
+#include "io/result/map_cloud.hpp"
+#include "io/sequence/trajectory_io.hpp"
 #include "program_fixture.hpp"
 
 namespace nvm::app {

@@ -8,13 +8,13 @@
 #include <filesystem>
 #include <string>
 
-#include "eval/alignment.hpp"
-#include "eval/association.hpp"
-#include "eval/error_statistics.hpp"
-#include "eval/trajectory_error.hpp"
-#include "io/map_cloud.hpp"
+#include "eval/trajectory/alignment.hpp"
+#include "eval/trajectory/association.hpp"
+#include "eval/trajectory/error_statistics.hpp"
+#include "eval/trajectory/trajectory_error.hpp"
+#include "io/result/map_cloud.hpp"
+#include "io/sequence/trajectory_io.hpp"
 #include "io/temporary_folder.hpp"
-#include "io/trajectory_io.hpp"
 #include "support/real_data.hpp"
 
 namespace nvm::app {

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "io/map_cloud.hpp"
-#include "io/trajectory_io.hpp"
+#include "io/result/map_cloud.hpp"
+#include "io/sequence/trajectory_io.hpp"
 #include "program_fixture.hpp"
 #include "support/sanitizers.hpp"
 

@@ -3,7 +3,11 @@
 # source file that does not include its own header first, and a file that has grown too long, tests included.
 cmake_minimum_required(VERSION 3.22)
 
-set(layers core geometry normal map registration adapters config lio io sim eval survey merge app)
+set(layers core geometry normal map registration adapters common config lio io sim eval survey merge app)
+# The rooms of the layers that have some, lowest first: none may include a later one.
+set(rooms_lio state map scan match place change imu pipeline)
+set(rooms_io file cloud scan sequence message result)
+set(rooms_eval trajectory walls report)
 
 # What each layer may include beside itself.
 set(below_core "")
@@ -12,8 +16,9 @@ set(below_normal core geometry)
 set(below_map core geometry)
 set(below_registration core geometry normal map)
 set(below_adapters ${below_registration} registration)
-set(below_config ${below_registration} registration)
-set(below_lio ${below_config} config)
+set(below_common ${below_registration} registration)
+set(below_config ${below_common})
+set(below_lio ${below_common} common config)
 set(below_io ${below_lio} lio)
 set(below_sim ${below_lio} lio io)
 set(below_eval ${below_lio} lio io)
@@ -44,6 +49,15 @@ foreach(layer IN LISTS layers)
            AND NOT CMAKE_MATCH_2 STREQUAL layer)
           list(APPEND problems "${file}: ${include} (${layer} is not above ${CMAKE_MATCH_2})")
         endif()
+        if(DEFINED rooms_${layer}
+           AND "${file} ${include}" MATCHES "^src/${layer}/([a-z]+)/.*\"${layer}/([a-z]+)/")
+          set(other_room ${CMAKE_MATCH_2})
+          list(FIND rooms_${layer} ${CMAKE_MATCH_1} height)
+          list(FIND rooms_${layer} ${other_room} other_height)
+          if(height LESS 0 OR other_height LESS 0 OR other_height GREATER height)
+            list(APPEND problems "${file}: ${include} (its room is not above ${other_room})")
+          endif()
+        endif()
         if(folder STREQUAL include/nvm
            AND include MATCHES ${refused_in_core}
            AND NOT file IN_LIST allowed_in_core)
@@ -54,7 +68,7 @@ foreach(layer IN LISTS layers)
       string(REGEX MATCH "[^/]+$" header_name ${header})
       if(file MATCHES "cpp$"
          AND EXISTS ${root}/${header}
-         AND NOT includes MATCHES "^#include \"[a-z_]+/${header_name}\"")
+         AND NOT includes MATCHES "^#include \"[a-z_/]+/${header_name}\"")
         list(APPEND problems "${file}: does not include its own header first")
       endif()
       if(line_count GREATER max_lines)

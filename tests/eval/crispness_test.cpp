@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#include "eval/crispness.hpp"
+#include "eval/walls/crispness.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#include "eval/evaluation.hpp"
+#include "eval/report/evaluation.hpp"
 
 #include <gmock/gmock.h>
 
 #include <limits>
 #include <stdexcept>
 
-#include "eval/report.hpp"
+#include "eval/report/report.hpp"
 #include "eval/run_folder.hpp"
 #include "eval/synthetic_wall.hpp"
-#include "io/file.hpp"
+#include "io/file/file.hpp"
 #include "support/rng.hpp"
 
 namespace nvm::eval {

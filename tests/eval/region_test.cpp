@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#include "eval/region.hpp"
+#include "eval/walls/region.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "eval/synthetic_wall.hpp"
-#include "eval/wall_evaluation.hpp"
+#include "eval/walls/wall_evaluation.hpp"
 #include "support/rng.hpp"
 
 namespace nvm::eval {

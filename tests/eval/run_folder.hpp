@@ -10,10 +10,10 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "eval/oriented_cloud.hpp"
-#include "eval/wall.hpp"
-#include "io/map_cloud.hpp"
-#include "io/trajectory_io.hpp"
+#include "eval/walls/oriented_cloud.hpp"
+#include "eval/walls/wall.hpp"
+#include "io/result/map_cloud.hpp"
+#include "io/sequence/trajectory_io.hpp"
 
 namespace nvm::test {
 

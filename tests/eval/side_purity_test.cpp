@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#include "eval/side_purity.hpp"
+#include "eval/walls/side_purity.hpp"
 
 #include <gtest/gtest.h>
 
 #include "eval/synthetic_wall.hpp"
-#include "eval/wall_points.hpp"
+#include "eval/walls/wall_points.hpp"
 #include "support/rng.hpp"
 
 namespace nvm::eval {

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <random>
 
-#include "eval/oriented_cloud.hpp"
-#include "eval/wall.hpp"
+#include "eval/walls/oriented_cloud.hpp"
+#include "eval/walls/wall.hpp"
 
 namespace nvm::test {
 

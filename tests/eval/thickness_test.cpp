@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#include "eval/thickness.hpp"
+#include "eval/walls/thickness.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <set>
 
 #include "eval/synthetic_wall.hpp"
-#include "eval/wall_evaluation.hpp"
+#include "eval/walls/wall_evaluation.hpp"
 #include "support/rng.hpp"
 
 namespace nvm::eval {

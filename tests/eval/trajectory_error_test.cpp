@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#include "eval/trajectory_error.hpp"
+#include "eval/trajectory/trajectory_error.hpp"
 
 #include <gmock/gmock.h>
 

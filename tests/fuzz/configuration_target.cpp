@@ -4,8 +4,8 @@
 // A configuration of any text is refused, or gives options that print as text which reads back.
 #include "config/schema.hpp"
 #include "fuzz_target.hpp"
-#include "io/sequence_options.hpp"
-#include "lio/pipeline_options.hpp"
+#include "io/sequence/sequence_options.hpp"
+#include "lio/pipeline/pipeline_options.hpp"
 
 namespace {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "fuzz_target.hpp"
-#include "io/message_sequence.hpp"
+#include "io/message/message_sequence.hpp"
 #include "sequence_check.hpp"
 
 namespace {

@@ -10,18 +10,18 @@
 #include <vector>
 
 #include "fuzz_target.hpp"
-#include "lio/pipeline_options.hpp"
+#include "lio/pipeline/pipeline_options.hpp"
 #include "lio/room_recording.hpp"
 
 namespace {
 
+using nvm::ImuSample;
+using nvm::Scan;
 using nvm::fuzz::Input;
 using nvm::fuzz::require;
 using nvm::lio::FrameResult;
-using nvm::lio::ImuSample;
 using nvm::lio::Pipeline;
 using nvm::lio::PipelineType;
-using nvm::lio::Scan;
 
 constexpr int kMaxScans = 40;
 

@@ -6,7 +6,7 @@
 #include <array>
 
 #include "fuzz_target.hpp"
-#include "io/map_cloud.hpp"
+#include "io/result/map_cloud.hpp"
 #include "sequence_check.hpp"
 
 namespace {

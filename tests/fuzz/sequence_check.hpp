@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "fuzz_target.hpp"
-#include "io/sequence_reader.hpp"
+#include "io/sequence/sequence_reader.hpp"
 
 namespace nvm::fuzz {
 
@@ -20,14 +20,14 @@ inline void read_all(io::SequenceReader& reader) {
     require(scan->t_begin > previous_begin, "scans are in order of time");
     previous_begin = scan->t_begin;
     float previous = 0.0F;
-    for (const lio::TimedPoint& point : scan->points) {
+    for (const TimedPoint& point : scan->points) {
       require(
           std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z),
           "positions are finite");
       require(point.dt >= previous, "points are in order of time");
       previous = point.dt;
     }
-    for (const lio::ImuSample& sample : reader.imu_until(scan->t_end)) {
+    for (const ImuSample& sample : reader.imu_until(scan->t_end)) {
       require(sample.time > previous_imu, "IMU samples are in order of time");
       require(sample.time <= scan->t_end, "no IMU sample comes too early");
       require(sample.gyro.allFinite() && sample.accel.allFinite(), "IMU samples are finite");

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "fuzz_target.hpp"
-#include "io/imu_file.hpp"
-#include "io/trajectory_io.hpp"
+#include "io/sequence/imu_file.hpp"
+#include "io/sequence/trajectory_io.hpp"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#include "io/cloud_stream.hpp"
+#include "io/scan/cloud_stream.hpp"
 
 #include <gmock/gmock.h>
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "io/damage.hpp"
-#include "io/file.hpp"
+#include "io/file/file.hpp"
 #include "io/nvm_sequence_fixture.hpp"
 #include "support/rng.hpp"
 

@@ -9,8 +9,8 @@
 #include <random>
 #include <string>
 
+#include "io/cloud/point_records.hpp"
 #include "io/lzf_compress.hpp"
-#include "io/point_records.hpp"
 
 namespace nvm::test {
 

@@ -8,11 +8,11 @@
 #include <stdexcept>
 #include <string>
 
+#include "io/cloud/pcd.hpp"
+#include "io/cloud/ply.hpp"
 #include "io/damage.hpp"
 #include "io/encoded_records.hpp"
-#include "io/file.hpp"
-#include "io/pcd.hpp"
-#include "io/ply.hpp"
+#include "io/file/file.hpp"
 #include "io/temporary_folder.hpp"
 #include "support/rng.hpp"
 

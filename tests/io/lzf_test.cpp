@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#include "io/lzf.hpp"
+#include "io/cloud/lzf.hpp"
 
 #include <gtest/gtest.h>
 

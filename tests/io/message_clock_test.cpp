@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#include "io/message_clock.hpp"
+#include "io/sequence/message_clock.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "io/file.hpp"
-#include "io/nvm_sequence_writer.hpp"
-#include "io/sequence_reader.hpp"
+#include "io/file/file.hpp"
+#include "io/sequence/nvm_sequence_writer.hpp"
+#include "io/sequence/sequence_reader.hpp"
 #include "io/temporary_folder.hpp"
 
 namespace nvm::io {
@@ -23,8 +23,8 @@ inline constexpr char kMeta[] = R"({
   "counts": {"scans": 3, "points": 12}
 })";
 
-inline lio::Scan some_scan(double t_begin) {
-  lio::Scan scan{t_begin, t_begin + 0.1, {}};
+inline Scan some_scan(double t_begin) {
+  Scan scan{t_begin, t_begin + 0.1, {}};
   for (int i = 0; i < 4; ++i) {
     const float value = static_cast<float>(i);
     scan.points.push_back(
@@ -33,8 +33,8 @@ inline lio::Scan some_scan(double t_begin) {
   return scan;
 }
 
-inline std::vector<lio::ImuSample> some_imu() {
-  std::vector<lio::ImuSample> samples;
+inline std::vector<ImuSample> some_imu() {
+  std::vector<ImuSample> samples;
   for (int i = 0; i < 250; ++i) {
     samples.push_back({10.0 + 0.005 * i, {0.1, -0.2, 1e-9 * i}, {0.0, 0.0, 9.81}});
   }

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "io/nvm_sequence_fixture.hpp"
-#include "io/nvm_sequence_writer.hpp"
-#include "io/sequence_reader.hpp"
+#include "io/sequence/nvm_sequence_writer.hpp"
+#include "io/sequence/sequence_reader.hpp"
 #include "io/temporary_folder.hpp"
 
 namespace nvm::io {
@@ -30,7 +30,7 @@ TEST_F(NvmSequence, ReadsBackWhatWasWritten) {
   EXPECT_EQ(info.T_imu_lidar.translation(), Eigen::Vector3d(0.1, -0.2, 3.0));
   EXPECT_TRUE(info.T_imu_lidar.linear().isApprox(so3_exp({0, 0, 3.14159265358979323846}), 1e-12));
   for (const double time : {10.0, 10.1, 10.2}) {
-    const lio::Scan expected = some_scan(time);
+    const Scan expected = some_scan(time);
     const auto scan = reader->next_scan();
     ASSERT_TRUE(scan);
     EXPECT_EQ(scan->t_begin, time);

@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "io/sequence_reader.hpp"
+#include "io/sequence/sequence_reader.hpp"
 #include "io/temporary_folder.hpp"
 
 namespace nvm::io {

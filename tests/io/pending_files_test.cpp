@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#include "io/pending_files.hpp"
+#include "io/file/pending_files.hpp"
 
 #include <gmock/gmock.h>
 
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "io/file.hpp"
+#include "io/file/file.hpp"
 #include "temporary_folder.hpp"
 
 namespace nvm::io {

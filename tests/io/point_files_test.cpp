@@ -11,13 +11,13 @@
 #include <string>
 #include <vector>
 
+#include "io/cloud/pcd.hpp"
+#include "io/cloud/ply.hpp"
+#include "io/cloud/point_records.hpp"
 #include "io/encoded_records.hpp"
-#include "io/file.hpp"
-#include "io/map_cloud.hpp"
-#include "io/pcd.hpp"
-#include "io/pending_path.hpp"
-#include "io/ply.hpp"
-#include "io/point_records.hpp"
+#include "io/file/file.hpp"
+#include "io/file/pending_path.hpp"
+#include "io/result/map_cloud.hpp"
 #include "io/temporary_folder.hpp"
 #include "support/rng.hpp"
 

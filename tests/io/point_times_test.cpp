@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#include "io/point_times.hpp"
+#include "io/scan/point_times.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "io/scan_converter.hpp"
+#include "io/scan/scan_converter.hpp"
 #include "io/temporary_folder.hpp"
 #include "io/turning_sensor.hpp"
 
@@ -22,7 +22,7 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 
 /// The time in its sweep at which `sensor` measured the point, by its azimuth.
-double true_time(const TurningSensor& sensor, const lio::TimedPoint& point) {
+double true_time(const TurningSensor& sensor, const TimedPoint& point) {
   const double share = std::atan2(point.y, point.x) / (2.0 * M_PI) + 0.5;
   return sensor.period * (share > 1.0 - 0.5 / kColumns ? 0.0 : share);
 }
@@ -30,10 +30,10 @@ double true_time(const TurningSensor& sensor, const lio::TimedPoint& point) {
 /// Expects all points of the scan, at least `min_count`, to have the time at which they were
 /// measured.
 void expect_true_times(
-    const TurningSensor& sensor, int sweep, const lio::Scan& scan, std::size_t min_count = 1500) {
+    const TurningSensor& sensor, int sweep, const Scan& scan, std::size_t min_count = 1500) {
   ASSERT_GE(scan.points.size(), min_count);
   const double tolerance = 2e-4 * sensor.period;
-  for (const lio::TimedPoint& point : scan.points) {
+  for (const TimedPoint& point : scan.points) {
     const double expected = sensor.time_of(sweep) + true_time(sensor, point);
     ASSERT_NEAR(scan.t_begin + static_cast<double>(point.dt), expected, tolerance + 1e-6) << sweep;
   }

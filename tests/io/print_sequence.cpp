@@ -7,7 +7,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "io/sequence_reader.hpp"
+#include "io/sequence/sequence_reader.hpp"
 
 namespace {
 

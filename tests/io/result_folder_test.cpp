@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#include "io/result_folder.hpp"
+#include "io/result/result_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <sys/wait.h>
@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "io/file.hpp"
-#include "io/pending_path.hpp"
+#include "io/file/file.hpp"
+#include "io/file/pending_path.hpp"
 #include "io/temporary_folder.hpp"
 
 namespace nvm::io {

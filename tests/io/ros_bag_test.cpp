@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "io/file.hpp"
-#include "io/ros_bag_writer.hpp"
-#include "io/sequence_reader.hpp"
+#include "io/file/file.hpp"
+#include "io/message/ros_bag_writer.hpp"
+#include "io/sequence/sequence_reader.hpp"
 #include "io/temporary_folder.hpp"
 #include "support/rng.hpp"
 
@@ -32,8 +32,8 @@ TEST(RosBag, IsNotBuilt) { GTEST_SKIP() << "built without ROS 1 bags"; }
 
 class RosBag : public test::TemporaryFolder {
  protected:
-  static lio::Scan scan_at(double time) {
-    lio::Scan scan{time, time + 0.1, {}};
+  static Scan scan_at(double time) {
+    Scan scan{time, time + 0.1, {}};
     for (int i = 0; i <= 10; ++i) {
       const float value = static_cast<float>(i);
       const auto ring = static_cast<std::uint16_t>(i % 4);
@@ -42,7 +42,7 @@ class RosBag : public test::TemporaryFolder {
     return scan;
   }
 
-  static lio::ImuSample imu_at(double time, double g = 9.81) {
+  static ImuSample imu_at(double time, double g = 9.81) {
     return {time, {0.1, std::sin(time), -0.3}, {0.0, 0.01 * g, g}};
   }
 
@@ -82,7 +82,7 @@ TEST_F(RosBag, ReadsBackAllTypesOfMessages) {
     EXPECT_TRUE(reader->info().has_point_times);
     double imu_time = 999.995;
     for (int i = 0; i < 10; ++i) {
-      const lio::Scan expected = scan_at(1000.0 + 0.1 * i);
+      const Scan expected = scan_at(1000.0 + 0.1 * i);
       const auto scan = reader->next_scan();
       ASSERT_TRUE(scan);
       EXPECT_NEAR(scan->t_begin, expected.t_begin, 1e-6);
@@ -94,7 +94,7 @@ TEST_F(RosBag, ReadsBackAllTypesOfMessages) {
         EXPECT_NEAR(scan->points[k].dt, expected.points[k].dt, 1e-8);
         EXPECT_EQ(scan->points[k].ring, expected.points[k].ring);
       }
-      for (const lio::ImuSample& sample : reader->imu_until(scan->t_end)) {
+      for (const ImuSample& sample : reader->imu_until(scan->t_end)) {
         EXPECT_LE(sample.time, scan->t_end);
         EXPECT_NEAR(sample.time, imu_time += 0.005, 1e-6);
         EXPECT_NEAR(sample.gyro.y(), std::sin(sample.time), 1e-6);
@@ -168,7 +168,7 @@ TEST_F(RosBag, CloudsThatRepeatOrComeLateAreLeftOut) {
   for (int i = 0; i < 6; ++i) {
     bag.add_scan(scan_at(1000.0 + 0.1 * i));
   }
-  lio::Scan late = scan_at(1000.2);
+  Scan late = scan_at(1000.2);
   late.t_end = 1000.55;  // recorded three scans later than it should
   bag.add_scan(late);
   bag.add_scan(scan_at(1000.6));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#include "io/ros_messages.hpp"
+#include "io/message/ros_messages.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#include "io/scan_folder.hpp"
+#include "io/sequence/scan_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "io/natural_order.hpp"
-#include "io/pcd.hpp"
-#include "io/scan_converter.hpp"
+#include "io/cloud/pcd.hpp"
+#include "io/file/natural_order.hpp"
+#include "io/scan/scan_converter.hpp"
 #include "io/temporary_folder.hpp"
 #include "support/real_data.hpp"
 #include "support/rng.hpp"
@@ -70,7 +70,7 @@ TEST(ScanConverter, FindsUnitAndOriginOfPointTimes) {
   };
   for (const TimeCase& test : cases) {
     const PointRecords records = timed_records(test.field, test.type, test.ticks);
-    const lio::Scan scan = ScanConverter().convert(records, test.stamp);
+    const Scan scan = ScanConverter().convert(records, test.stamp);
     ASSERT_EQ(scan.points.size(), 3U) << test.field;
     EXPECT_NEAR(scan.t_begin, test.t_begin, 1e-6) << test.field << test.ticks[1];
     EXPECT_NEAR(scan.t_end, test.t_begin + 0.1, 1e-6) << test.field << test.ticks[1];
@@ -107,7 +107,7 @@ TEST(ScanConverter, LeavesOutPointsThatAreNotFinite) {
   PointRecords records = timed_records("t", ScalarType::kFloat64, {0.0, nan, 0.1, 0.2});
   const float infinity = std::numeric_limits<float>::infinity();
   std::memcpy(&records.bytes[2 * records.record_size + 4], &infinity, sizeof(infinity));
-  const lio::Scan scan = ScanConverter().convert(records, 0.0);
+  const Scan scan = ScanConverter().convert(records, 0.0);
   ASSERT_EQ(scan.points.size(), 2U);
   EXPECT_EQ(scan.points[1].x, 4.0F);
   EXPECT_EQ(ScanConverter().convert(timed_records("t", ScalarType::kInt8, {}), 3.0).t_end, 3.0);
@@ -131,10 +131,10 @@ TEST(ScanConverter, ReadsRingAndIntensityAndWantsCoordinates) {
   append_bytes(9.0F, records.bytes);
   append_bytes(std::int16_t{-3}, records.bytes);
   append_bytes(std::uint8_t{200}, records.bytes);
-  const lio::Scan scan = ScanConverter().convert(records, 1.5);
+  const Scan scan = ScanConverter().convert(records, 1.5);
   EXPECT_EQ(scan.t_begin, 1.5);
   EXPECT_EQ(scan.t_end, 1.5);
-  const lio::TimedPoint& point = scan.points.at(0);
+  const TimedPoint& point = scan.points.at(0);
   EXPECT_THAT(
       (std::vector<float>{point.x, point.y, point.z, point.intensity}),
       ElementsAre(1.0F, 2.0F, -3.0F, 200.0F));

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "io/file.hpp"
-#include "io/nvm_sequence_writer.hpp"
-#include "io/point_records.hpp"
-#include "io/sequence_reader.hpp"
+#include "io/cloud/point_records.hpp"
+#include "io/file/file.hpp"
+#include "io/sequence/nvm_sequence_writer.hpp"
+#include "io/sequence/sequence_reader.hpp"
 #include "io/temporary_folder.hpp"
 #include "support/rng.hpp"
 
@@ -72,7 +72,7 @@ TEST_F(ScanForms, BinariesOfAnyNumberOfFields) {
 
 TEST_F(ScanForms, OwnScansAreReadAsWhatTheyAre) {
   NvmSequenceWriter writer(path("s"));
-  lio::Scan scan{20.0, 20.1, {}};
+  Scan scan{20.0, 20.1, {}};
   for (int i = 0; i < 100; ++i) {
     const float value = static_cast<float>(i);
     scan.points.push_back({value, 2.0F, 1.0F, 5.0F, 0.001F * value, static_cast<std::uint16_t>(i)});

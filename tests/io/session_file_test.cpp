@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#include "io/session_file.hpp"
+#include "io/result/session_file.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#include "io/sweep_azimuth.hpp"
+#include "io/scan/sweep_azimuth.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,8 +14,8 @@ namespace {
 constexpr std::size_t kColumns = 400;
 
 /// One beam of a sweep, clockwise.
-std::vector<lio::TimedPoint> sweep() {
-  std::vector<lio::TimedPoint> points(kColumns);
+std::vector<TimedPoint> sweep() {
+  std::vector<TimedPoint> points(kColumns);
   for (std::size_t i = 0; i < kColumns; ++i) {
     const double azimuth = -2.0 * M_PI * static_cast<double>(i) / kColumns;
     points[i].x = static_cast<float>(5.0 * std::cos(azimuth));

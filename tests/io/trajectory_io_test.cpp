@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#include "io/trajectory_io.hpp"
+#include "io/sequence/trajectory_io.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "io/damage.hpp"
-#include "io/file.hpp"
+#include "io/file/file.hpp"
 #include "io/temporary_folder.hpp"
 #include "support/rng.hpp"
 

@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "io/scan_converter.hpp"
+#include "io/scan/scan_converter.hpp"
 
 namespace nvm::io {
 
@@ -86,10 +86,10 @@ struct TurningSensor {
   }
 
   /// The scans of `count` sweeps; `damage` may change the messages first.
-  std::vector<lio::Scan> scans(
+  std::vector<Scan> scans(
       ScanConverter& converter, const std::vector<CloudMessage>& messages) const {
     converter.learn(messages);
-    std::vector<lio::Scan> scans;
+    std::vector<Scan> scans;
     for (const CloudMessage& message : messages) {
       scans.push_back(converter.convert(message.records, message.stamp));
     }

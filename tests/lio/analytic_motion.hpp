@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "lio/nav_state.hpp"
-#include "lio/sensor_data.hpp"
+#include "common/sensor_data.hpp"
+#include "lio/state/nav_state.hpp"
 
 namespace nvm::test {
 
@@ -36,7 +36,7 @@ struct AnalyticMotion {
     return (pose(t + kStep).translation() - pose(t - kStep).translation()) / (2.0 * kStep);
   }
 
-  lio::ImuSample imu(double t) const {
+  ImuSample imu(double t) const {
     const Pose now = pose(t);
     const Pose before = pose(t - kStep);
     const Pose after = pose(t + kStep);

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "lio/prior_pipeline.hpp"
+#include "lio/pipeline/prior_pipeline.hpp"
 #include "support/rng.hpp"
 #include "support/room.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#include "lio/change_finder.hpp"
+#include "lio/change/change_finder.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#include "lio/clock_watch.hpp"
+#include "lio/imu/clock_watch.hpp"
 
 #include <gmock/gmock.h>
 

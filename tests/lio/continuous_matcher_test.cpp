@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#include "lio/continuous_matcher.hpp"
+#include "lio/match/continuous_matcher.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 #include <numeric>
 #include <random>
 
-#include "lio/coupled_matcher.hpp"
-#include "lio/lio_map.hpp"
+#include "lio/map/lio_map.hpp"
+#include "lio/match/coupled_matcher.hpp"
 #include "nvm/registration/association.hpp"
 #include "nvm/registration/normal_equations.hpp"
 #include "support/rng.hpp"

@@ -5,7 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-#include "lio/pipeline_options.hpp"
+#include "lio/pipeline/pipeline_options.hpp"
 #include "lio/room_recording.hpp"
 
 namespace nvm::lio {

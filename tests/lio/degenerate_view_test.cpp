@@ -5,8 +5,8 @@
 #include <cmath>
 #include <functional>
 
-#include "lio/pipeline.hpp"
-#include "lio/pipeline_options.hpp"
+#include "lio/pipeline/pipeline.hpp"
+#include "lio/pipeline/pipeline_options.hpp"
 #include "lio/room_pipeline.hpp"
 #include "lio/room_recording.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#include "lio/deskew.hpp"
+#include "lio/scan/deskew.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "lio/analytic_motion.hpp"
-#include "lio/error_state_filter.hpp"
+#include "lio/state/error_state_filter.hpp"
 
 namespace nvm::lio {
 namespace {

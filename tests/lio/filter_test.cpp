@@ -7,8 +7,8 @@
 #include <random>
 
 #include "lio/analytic_motion.hpp"
-#include "lio/degeneracy.hpp"
-#include "lio/error_state_filter.hpp"
+#include "lio/match/degeneracy.hpp"
+#include "lio/state/error_state_filter.hpp"
 #include "support/rng.hpp"
 
 namespace nvm::lio {

@@ -10,7 +10,7 @@
 #include <tuple>
 
 #include "config/schema.hpp"
-#include "lio/pipeline_options.hpp"
+#include "lio/pipeline/pipeline_options.hpp"
 #include "lio/room_recording.hpp"
 #include "support/rng.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#include "lio/imu_clipping.hpp"
+#include "lio/imu/imu_clipping.hpp"
 
 #include <gtest/gtest.h>
 

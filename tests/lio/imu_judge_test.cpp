@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#include "lio/imu_judge.hpp"
+#include "lio/imu/imu_judge.hpp"
 
 #include <gmock/gmock.h>
 

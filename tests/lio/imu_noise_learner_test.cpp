@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#include "lio/imu_noise_learner.hpp"
+#include "lio/imu/imu_noise_learner.hpp"
 
 #include <gtest/gtest.h>
 

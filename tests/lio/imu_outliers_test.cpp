@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "lio/imu_buffer.hpp"
+#include "lio/imu/imu_buffer.hpp"
 #include "support/rng.hpp"
 
 namespace nvm::lio {

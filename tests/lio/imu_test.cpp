@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "lio/analytic_motion.hpp"
-#include "lio/imu_buffer.hpp"
-#include "lio/imu_initializer.hpp"
+#include "lio/imu/imu_buffer.hpp"
+#include "lio/imu/imu_initializer.hpp"
 #include "support/rng.hpp"
 
 namespace nvm::lio {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#include "lio/keypoints.hpp"
+#include "lio/scan/keypoints.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#include "lio/lidar_odometry.hpp"
+#include "lio/pipeline/lidar_odometry.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#include "lio/loss_watch.hpp"
+#include "lio/place/loss_watch.hpp"
 
 #include <gtest/gtest.h>
 

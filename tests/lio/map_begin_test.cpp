@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The nvm authors
 #include <gmock/gmock.h>
 
-#include "lio/pipeline_options.hpp"
+#include "lio/pipeline/pipeline_options.hpp"
 #include "lio/room_recording.hpp"
 
 namespace nvm::lio {

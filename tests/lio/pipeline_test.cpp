@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#include "lio/pipeline.hpp"
+#include "lio/pipeline/pipeline.hpp"
 
 #include <gmock/gmock.h>
 
@@ -10,8 +10,8 @@
 #include <string>
 #include <tuple>
 
-#include "lio/inertial_pipeline.hpp"
-#include "lio/pipeline_options.hpp"
+#include "lio/pipeline/inertial_pipeline.hpp"
+#include "lio/pipeline/pipeline_options.hpp"
 #include "lio/room_pipeline.hpp"
 #include "lio/room_recording.hpp"
 

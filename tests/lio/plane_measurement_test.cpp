@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#include "lio/plane_measurement.hpp"
+#include "lio/match/plane_measurement.hpp"
 
 #include <gtest/gtest.h>
 

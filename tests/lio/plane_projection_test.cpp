@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#include "lio/plane_projection.hpp"
+#include "lio/scan/plane_projection.hpp"
 
 #include <gtest/gtest.h>
 

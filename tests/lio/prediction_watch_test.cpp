@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#include "lio/prediction_watch.hpp"
+#include "lio/imu/prediction_watch.hpp"
 
 #include <gmock/gmock.h>
 

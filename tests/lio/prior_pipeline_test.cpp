@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#include "lio/prior_pipeline.hpp"
+#include "lio/pipeline/prior_pipeline.hpp"
 
 #include <gmock/gmock.h>
 

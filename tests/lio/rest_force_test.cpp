@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#include "lio/rest_force.hpp"
+#include "lio/imu/rest_force.hpp"
 
 #include <gmock/gmock.h>
 

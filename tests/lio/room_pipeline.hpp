@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The nvm authors
 #pragma once
 
-#include "lio/pipeline_options.hpp"
+#include "lio/pipeline/pipeline_options.hpp"
 
 namespace nvm::test {
 

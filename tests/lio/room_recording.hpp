@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "lio/analytic_motion.hpp"
-#include "lio/pipeline.hpp"
+#include "lio/pipeline/pipeline.hpp"
 #include "support/room.hpp"
 
 namespace nvm::test {
@@ -31,18 +31,16 @@ struct RoomRecording {
   Gap scan_gap, imu_gap;      ///< scans and readings inside are left out
   double imu_step = 0.005;    ///< between readings [s]
   /// What the IMU sends instead of a true reading.
-  std::function<lio::ImuSample(const lio::ImuSample&)> sent = [](const lio::ImuSample& sample) {
-    return sample;
-  };
+  std::function<ImuSample(const ImuSample&)> sent = [](const ImuSample& sample) { return sample; };
   /// Which returns the sensor sees, by their place in the room [m].
   std::function<bool(const Eigen::Vector3d& p_map)> sees = [](const Eigen::Vector3d&) {
     return true;
   };
 
-  lio::Scan scan(int index) const {
+  Scan scan(int index) const {
     std::mt19937_64 rng(static_cast<std::uint64_t>(index));
     const Room room;
-    lio::Scan scan{index * scan_period, (index + 1) * scan_period, {}};
+    Scan scan{index * scan_period, (index + 1) * scan_period, {}};
     for (std::size_t i = 0; i < points_per_scan; ++i) {
       const double dt = scan_period * static_cast<double>(i) / static_cast<double>(points_per_scan);
       const Pose T_map_scan = motion.pose(scan.t_begin + dt);
@@ -57,12 +55,12 @@ struct RoomRecording {
   int scan_count() const { return static_cast<int>(std::lround(duration / scan_period)); }
 
   /// The readings that come before scan `index` is complete and after the one before.
-  std::vector<lio::ImuSample> imu(int index) const {
+  std::vector<ImuSample> imu(int index) const {
     const auto first_after = [&](int scan) {
       return scan < 0 ? 0
                       : static_cast<int>(std::ceil(((scan + 1) * scan_period + 0.01) / imu_step));
     };
-    std::vector<lio::ImuSample> samples;
+    std::vector<ImuSample> samples;
     for (int i = first_after(index - 1); i < first_after(index); ++i) {
       if (!imu_gap.contains(i * imu_step)) {
         samples.push_back(sent(motion.imu(i * imu_step)));
@@ -73,13 +71,12 @@ struct RoomRecording {
 
   /// Feeds scan `index`, changed by `change`, and the readings before it.
   lio::FrameResult feed(
-      lio::Pipeline& pipeline,
-      int index,
-      const std::function<void(lio::Scan&)>& change = [](lio::Scan&) {}) const {
-    for (const lio::ImuSample& sample : imu(index)) {
+      lio::Pipeline& pipeline, int index, const std::function<void(Scan&)>& change = [](Scan&) {
+      }) const {
+    for (const ImuSample& sample : imu(index)) {
       pipeline.add_imu(sample);
     }
-    lio::Scan next = scan(index);
+    Scan next = scan(index);
     change(next);
     return pipeline.process(next);
   }
@@ -91,7 +88,7 @@ struct RoomRecording {
       if (!scan_gap.contains(i * scan_period)) {
         results.push_back(feed(pipeline, i));
       } else {
-        for (const lio::ImuSample& sample : imu(i)) {
+        for (const ImuSample& sample : imu(i)) {
           pipeline.add_imu(sample);
         }
       }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#include "lio/scan_thinning.hpp"
+#include "lio/scan/scan_thinning.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#include "lio/scan_witness.hpp"
+#include "lio/place/scan_witness.hpp"
 
 #include <gtest/gtest.h>
 
-#include "lio/place_judge.hpp"
+#include "lio/place/place_judge.hpp"
 #include "support/rng.hpp"
 #include "support/room.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#include "lio/tight_coupling.hpp"
+#include "lio/match/tight_coupling.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#include "lio/wall_grid.hpp"
+#include "lio/place/wall_grid.hpp"
 
 #include <gtest/gtest.h>
 

@@ -105,7 +105,7 @@ class MergeTest : public ::testing::Test {
 
   static merge::Merged merged(
       const std::vector<merge::Session>& sessions, const Poses& guesses = {}) {
-    return merge::merge_sessions(sessions, guesses, lio::Executor());
+    return merge::merge_sessions(sessions, guesses, Executor());
   }
 
   static std::string refusal(const std::vector<merge::Session>& sessions) {

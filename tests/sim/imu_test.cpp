@@ -26,7 +26,7 @@ ImuOptions perfect() {
 
 /// Integrates readings from the true state at `begin` to `end`, by the midpoint of neighbours.
 Eigen::Vector3d dead_reckon(
-    const std::vector<lio::ImuSample>& imu, const Motion& motion, double begin, double end) {
+    const std::vector<ImuSample>& imu, const Motion& motion, double begin, double end) {
   const Kinematics start = motion.kinematics(begin);
   Eigen::Matrix3d R = start.T_world_imu.linear();
   Eigen::Vector3d v = start.velocity;
@@ -81,7 +81,7 @@ std::vector<Eigen::Vector3d> errors_at_rest(const ImuOptions& options, std::uint
   still.still_time = 60.0;
   const Motion motion(long_route(), still, seed, 60.0);
   std::vector<Eigen::Vector3d> errors;
-  for (const lio::ImuSample& sample : simulate_imu(motion, options, seed)) {
+  for (const ImuSample& sample : simulate_imu(motion, options, seed)) {
     errors.push_back(sample.gyro);
   }
   return errors;

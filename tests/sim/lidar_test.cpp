@@ -160,7 +160,7 @@ TEST_F(LidarInARoom, KeepsWithinItsRanges) {
   LidarOptions options;
   options.min_range = 2.0;
   options.max_range = 4.0;
-  for (const lio::TimedPoint& point : scan(options).scan.points) {
+  for (const TimedPoint& point : scan(options).scan.points) {
     const double range = Eigen::Vector3f(point.x, point.y, point.z).norm();
     EXPECT_GE(range, 2.0 - 1e-6);
     EXPECT_LE(range, 4.0 + 1e-6);
@@ -195,7 +195,7 @@ TEST_F(LidarInARoom, NoiseGrowsWithRangeAndIncidenceWhenAsked) {
 TEST_F(LidarInARoom, RangesAreMultiplesOfTheQuantum) {
   LidarOptions options;
   options.range_quantum = 0.02;
-  for (const lio::TimedPoint& point : scan(options).scan.points) {
+  for (const TimedPoint& point : scan(options).scan.points) {
     const double steps = Eigen::Vector3d(point.x, point.y, point.z).norm() / options.range_quantum;
     EXPECT_NEAR(steps, std::round(steps), 1e-3);
   }
@@ -212,9 +212,7 @@ TEST_F(LidarInARoom, BiasesLengthenDarkAndSlantingReturns) {
   const auto slanting = scan(options).scan.points;
   double longest = 0.0;
   for (std::size_t i = 0; i < exact.size(); ++i) {
-    const auto range = [](const lio::TimedPoint& p) {
-      return Eigen::Vector3d(p.x, p.y, p.z).norm();
-    };
+    const auto range = [](const TimedPoint& p) { return Eigen::Vector3d(p.x, p.y, p.z).norm(); };
     ASSERT_NEAR(range(dark[i]) - range(exact[i]), 0.01, 1e-5);
     ASSERT_GE(range(slanting[i]) - range(exact[i]), -1e-5);
     longest = std::max(longest, range(slanting[i]) - range(exact[i]));
@@ -226,7 +224,7 @@ TEST_F(LidarInARoom, BiasesLengthenDarkAndSlantingReturns) {
 TEST_F(LidarInARoom, IntensityFollowsReflectivityAndIncidence) {
   LidarOptions options;
   options.range_noise = 0.0;
-  for (const lio::TimedPoint& point : scan(options).scan.points) {
+  for (const TimedPoint& point : scan(options).scan.points) {
     EXPECT_GE(point.intensity, 0.0F);
     EXPECT_LE(point.intensity, 127.5F);
   }

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kRounding = 1e-5;  ///< of a point in single precision [m]
 
-double range_of(const lio::TimedPoint& point) {
+double range_of(const TimedPoint& point) {
   return Eigen::Vector3d(point.x, point.y, point.z).norm();
 }
 
@@ -44,7 +44,7 @@ class Hall {
 
   /// Where return `i` seems to come from, in the world frame [m].
   Eigen::Vector3d place(std::size_t i) const {
-    const lio::TimedPoint& point = simulated_.scan.points[i];
+    const TimedPoint& point = simulated_.scan.points[i];
     const double time = simulated_.scan.t_begin + static_cast<double>(point.dt);
     return motion_.pose(time) * lidar_.extrinsic() * Eigen::Vector3d(point.x, point.y, point.z);
   }

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "lio/sensor_data.hpp"
+#include "common/sensor_data.hpp"
 #include "sim/motion.hpp"
 #include "sim/ray_caster.hpp"
 
@@ -17,13 +17,13 @@ class RangeResiduals {
   /// Casts a ray along each point of `scan` from the true pose at its time, `clock_shift` [s]
   /// later.
   void add(
-      const lio::Scan& scan,
+      const Scan& scan,
       const sim::RayCaster& rays,
       const sim::Motion& motion,
       const Pose& T_imu_lidar,
       double clock_shift = 0.0) {
     constexpr double kFarOff = 0.1;  // ten sigma: another surface
-    for (const lio::TimedPoint& point : scan.points) {
+    for (const TimedPoint& point : scan.points) {
       const double time = scan.t_begin + static_cast<double>(point.dt) + clock_shift;
       const Pose T_world_lidar = motion.pose(time) * T_imu_lidar;
       const Eigen::Vector3d p = Eigen::Vector3f(point.x, point.y, point.z).cast<double>();

@@ -82,9 +82,9 @@ double distance_to(const Cylinder& cylinder, const Eigen::Vector3d& p) {
 TEST_P(SelfCheck, WithoutNoiseEachPointIsOnASolid) {
   options_.lidar.range_noise = 0.0;
   const Lidar sensor = lidar();
-  const lio::Scan scan = sensor.scan(300).scan;
+  const Scan scan = sensor.scan(300).scan;
   for (std::size_t i = 0; i < scan.points.size(); i += 37) {
-    const lio::TimedPoint& point = scan.points[i];
+    const TimedPoint& point = scan.points[i];
     const Pose T_world_lidar =
         motion_.pose(scan.t_begin + static_cast<double>(point.dt)) * sensor.extrinsic();
     const Eigen::Vector3d p =

@@ -12,7 +12,7 @@
 #include <string>
 
 #include "config/schema.hpp"
-#include "io/sequence_reader.hpp"
+#include "io/sequence/sequence_reader.hpp"
 #include "io/temporary_folder.hpp"
 #include "sim/scene_file.hpp"
 

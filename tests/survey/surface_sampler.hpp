@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "io/map_cloud.hpp"
+#include "io/result/map_cloud.hpp"
 
 namespace nvm::test {
 

@@ -7,8 +7,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "eval/thickness.hpp"
-#include "eval/wall_points.hpp"
+#include "eval/walls/thickness.hpp"
+#include "eval/walls/wall_points.hpp"
 #include "support/rng.hpp"
 #include "survey/surface_sampler.hpp"
 #include "survey/survey.hpp"

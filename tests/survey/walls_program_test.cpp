@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/program_fixture.hpp"
-#include "io/map_cloud.hpp"
-#include "io/tile_store.hpp"
+#include "io/result/map_cloud.hpp"
+#include "io/result/tile_store.hpp"
 #include "nvm/map/serialization.hpp"
 #include "nvm/map/voxel_map.hpp"
 #include "survey/surface_sampler.hpp"

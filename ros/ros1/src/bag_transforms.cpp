@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <exception>
 
-#include "io/ros_messages.hpp"
+#include "io/message/ros_messages.hpp"
 
 namespace nvm_ros {
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "io/message_source.hpp"
+#include "io/message/message_source.hpp"
 
 namespace tf2 {
 class BufferCore;

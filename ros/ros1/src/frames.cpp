@@ -11,7 +11,7 @@
 #include <optional>
 #include <thread>
 
-#include "io/sequence_options.hpp"
+#include "io/sequence/sequence_options.hpp"
 
 namespace nvm_ros {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "frames.hpp"
-#include "lio/pipeline.hpp"
+#include "lio/pipeline/pipeline.hpp"
 #include "nvm/geometry/trajectory.hpp"
 #include "nvm/map/map_point.hpp"
 

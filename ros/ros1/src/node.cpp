@@ -18,10 +18,10 @@
 #include <utility>
 
 #include "bag_transforms.hpp"
-#include "io/message_topics.hpp"
-#include "io/ros_bag_reader.hpp"
-#include "io/ros_messages.hpp"
-#include "io/sequence_options.hpp"
+#include "io/message/message_topics.hpp"
+#include "io/message/ros_bag_reader.hpp"
+#include "io/message/ros_messages.hpp"
+#include "io/sequence/sequence_options.hpp"
 
 namespace nvm_ros {
 
@@ -191,7 +191,7 @@ void Node::take_imu(nvm::io::RecordedMessage message) {
     refuse_type("imu_topic", message.type);
     return;
   }
-  const nvm::lio::ImuSample sample = nvm::io::read_imu(message.bytes);
+  const nvm::ImuSample sample = nvm::io::read_imu(message.bytes);
   {
     const std::lock_guard lock(received_mutex_);
     if (!imu_frame_) {

@@ -18,8 +18,8 @@
 
 #include "finding_watch.hpp"
 #include "frames.hpp"
-#include "io/message_source.hpp"
-#include "io/scan_converter.hpp"
+#include "io/message/message_source.hpp"
+#include "io/scan/scan_converter.hpp"
 #include "node_options.hpp"
 #include "odometry.hpp"
 #include "outputs.hpp"
@@ -61,7 +61,7 @@ class Node {
   void begin_anew(const std::string& reason);
   void tell(const nvm::lio::FrameResult& frame, const RawCloud& cloud);
   void tell_findings(double time);
-  void look_at_clocks(const nvm::lio::Scan& scan, bool has_readings);
+  void look_at_clocks(const nvm::Scan& scan, bool has_readings);
 
   void report();
   std::string finding(const QueueStats& queue);

@@ -5,7 +5,7 @@
 #include <ros/node_handle.h>
 
 #include "config/schema.hpp"
-#include "io/sequence_options.hpp"
+#include "io/sequence/sequence_options.hpp"
 #include "parameter_yaml.hpp"
 
 namespace nvm_ros {

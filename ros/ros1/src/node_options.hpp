@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <string>
 
-#include "io/sequence_reader.hpp"
-#include "lio/pipeline_options.hpp"
+#include "io/sequence/sequence_reader.hpp"
+#include "lio/pipeline/pipeline_options.hpp"
 
 namespace nvm::config {
 class Schema;

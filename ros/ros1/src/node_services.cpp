@@ -9,9 +9,9 @@
 #include <stdexcept>
 #include <vector>
 
-#include "io/map_files.hpp"
-#include "io/result_folder.hpp"
-#include "io/trajectory_io.hpp"
+#include "io/result/map_files.hpp"
+#include "io/result/result_folder.hpp"
+#include "io/sequence/trajectory_io.hpp"
 #include "node.hpp"
 #include "nvm/map/serialization.hpp"
 

@@ -7,7 +7,7 @@
 #include <exception>
 #include <utility>
 
-#include "io/ros_messages.hpp"
+#include "io/message/ros_messages.hpp"
 #include "node.hpp"
 
 namespace nvm_ros {
@@ -68,7 +68,7 @@ void Node::process(const RawCloud& cloud) {
     const std::lock_guard lock(mutex_);
     begin_anew(fmt::format("time has gone back to {:.3f} s", cloud.stamp));
   }
-  const nvm::lio::Scan scan =
+  const nvm::Scan scan =
       converter_.convert(nvm::io::read_cloud(cloud.message).records, cloud.stamp);
   const auto readings = queue_->imu_until(cloud, imu_needed_until(scan.t_end));
   if (!readings) {
@@ -160,7 +160,7 @@ void Node::tell_findings(double time) {
   }
 }
 
-void Node::look_at_clocks(const nvm::lio::Scan& scan, bool has_readings) {
+void Node::look_at_clocks(const nvm::Scan& scan, bool has_readings) {
   constexpr double kFar = 1.0;  // [s]
   const double newest = queue_->stats().newest_imu;
   const double ahead = newest - scan.t_end;

@@ -5,17 +5,17 @@
 #include <algorithm>
 #include <utility>
 
-#include "io/sequence_options.hpp"
+#include "io/sequence/sequence_options.hpp"
 
 namespace nvm_ros {
 
-using nvm::lio::ImuSample;
+using nvm::ImuSample;
 
 Odometry::Odometry(const nvm::lio::PipelineOptions& options, nvm::io::AccelUnit unit)
     : unit_(unit), pipeline_(nvm::lio::make_pipeline(options)) {}
 
 nvm::lio::FrameResult Odometry::process(
-    const std::vector<ImuSample>& samples, const nvm::lio::Scan& scan) {
+    const std::vector<ImuSample>& samples, const nvm::Scan& scan) {
   take(samples);
   return pipeline_->process(scan);
 }

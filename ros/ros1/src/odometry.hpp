@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "io/sequence_reader.hpp"
-#include "lio/pipeline.hpp"
-#include "lio/pipeline_options.hpp"
+#include "io/sequence/sequence_reader.hpp"
+#include "lio/pipeline/pipeline.hpp"
+#include "lio/pipeline/pipeline_options.hpp"
 
 namespace nvm_ros {
 
@@ -19,18 +19,17 @@ class Odometry {
   Odometry(const nvm::lio::PipelineOptions& options, nvm::io::AccelUnit unit);
 
   /// Takes the readings up to the scan's end, as they stand in the messages, and the scan.
-  nvm::lio::FrameResult process(
-      const std::vector<nvm::lio::ImuSample>& samples, const nvm::lio::Scan& scan);
+  nvm::lio::FrameResult process(const std::vector<nvm::ImuSample>& samples, const nvm::Scan& scan);
 
   const nvm::lio::Pipeline& pipeline() const { return *pipeline_; }
 
  private:
-  void take(const std::vector<nvm::lio::ImuSample>& samples);
+  void take(const std::vector<nvm::ImuSample>& samples);
 
   nvm::io::AccelUnit unit_;
   std::unique_ptr<nvm::lio::Pipeline> pipeline_;
-  std::optional<double> accel_scale_;           // nothing before enough readings have told
-  std::vector<nvm::lio::ImuSample> undecided_;  // the readings before accel_scale_ is known
+  std::optional<double> accel_scale_;      // nothing before enough readings have told
+  std::vector<nvm::ImuSample> undecided_;  // the readings before accel_scale_ is known
 };
 
 }  // namespace nvm_ros

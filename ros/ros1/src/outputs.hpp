@@ -11,7 +11,7 @@
 #include <string>
 
 #include "frames.hpp"
-#include "lio/pipeline.hpp"
+#include "lio/pipeline/pipeline.hpp"
 #include "node_options.hpp"
 #include "nvm/geometry/trajectory.hpp"
 

@@ -47,7 +47,7 @@ void SensorQueue::add(RawCloud cloud) {
   changed_.notify_all();
 }
 
-void SensorQueue::add(const nvm::lio::ImuSample& sample) {
+void SensorQueue::add(const nvm::ImuSample& sample) {
   Lock lock(mutex_);
   if (is_stale(sample.time, newest_cloud_)) {
     return;
@@ -88,7 +88,7 @@ std::optional<RawCloud> SensorQueue::next_cloud() {
   return cloud;
 }
 
-std::optional<std::vector<nvm::lio::ImuSample>> SensorQueue::imu_until(
+std::optional<std::vector<nvm::ImuSample>> SensorQueue::imu_until(
     const RawCloud& cloud, double time) {
   Lock lock(mutex_);
   const auto is_ready = [&] { return covers(time) || epoch_ != cloud.epoch; };
@@ -102,7 +102,7 @@ std::optional<std::vector<nvm::lio::ImuSample>> SensorQueue::imu_until(
   }
   const auto end = std::find_if(
       imu_.begin(), imu_.end(), [time](const auto& sample) { return sample.time > time; });
-  std::vector<nvm::lio::ImuSample> samples(imu_.begin(), end);
+  std::vector<nvm::ImuSample> samples(imu_.begin(), end);
   imu_.erase(imu_.begin(), end);
   is_taken_ = false;
   changed_.notify_all();

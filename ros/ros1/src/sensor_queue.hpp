@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "io/message_source.hpp"
-#include "lio/sensor_data.hpp"
+#include "common/sensor_data.hpp"
+#include "io/message/message_source.hpp"
 
 namespace nvm_ros {
 
@@ -55,7 +55,7 @@ class SensorQueue {
   SensorQueue(std::size_t max_clouds, WhenFull when_full, bool has_imu, double imu_timeout = 0.25);
 
   void add(RawCloud cloud);
-  void add(const nvm::lio::ImuSample& sample);
+  void add(const nvm::ImuSample& sample);
 
   /// No more will come: what waits can still be taken.
   void close();
@@ -66,7 +66,7 @@ class SensorQueue {
   /// The readings up to `time` [s], the end of `cloud`, that were not yet given out. Waits until
   /// the IMU is that far; but not for an IMU that has fallen silent. Nothing when meanwhile a new
   /// epoch has begun.
-  std::optional<std::vector<nvm::lio::ImuSample>> imu_until(const RawCloud& cloud, double time);
+  std::optional<std::vector<nvm::ImuSample>> imu_until(const RawCloud& cloud, double time);
 
   QueueStats stats() const;
 
@@ -85,7 +85,7 @@ class SensorQueue {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<RawCloud> clouds_;
-  std::deque<nvm::lio::ImuSample> imu_;
+  std::deque<nvm::ImuSample> imu_;
   double newest_cloud_ = kNever;  // [s]
   double epoch_begin_ = kNever;   // [s]
   std::size_t epoch_ = 0;

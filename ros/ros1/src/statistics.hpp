@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "lio/pipeline.hpp"
+#include "lio/pipeline/pipeline.hpp"
 #include "sensor_queue.hpp"
 
 namespace nvm_ros {

@@ -12,7 +12,7 @@
 #include <chrono>
 #include <thread>
 
-#include "io/message_topics.hpp"
+#include "io/message/message_topics.hpp"
 
 namespace nvm_ros {
 

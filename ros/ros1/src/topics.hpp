@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "io/message_source.hpp"
+#include "io/message/message_source.hpp"
 #include "node_options.hpp"
 
 namespace nvm_ros {

@@ -9,8 +9,8 @@
 #include <exception>
 #include <string>
 
-#include "io/ros_bag_writer.hpp"
-#include "io/sequence_reader.hpp"
+#include "io/message/ros_bag_writer.hpp"
+#include "io/sequence/sequence_reader.hpp"
 
 namespace {
 
@@ -26,7 +26,7 @@ void convert(const std::string& sequence, const std::string& type, const std::st
       : type == "livox2" ? CloudMessageType::kLivox2Custom
                          : CloudMessageType::kPointCloud2);
   while (auto scan = reader->next_scan()) {
-    for (nvm::lio::ImuSample sample : reader->imu_until(scan->t_end)) {
+    for (nvm::ImuSample sample : reader->imu_until(scan->t_end)) {
       sample.time += kLater;
       writer.add_imu(sample);
     }

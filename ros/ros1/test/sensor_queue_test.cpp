@@ -12,7 +12,7 @@
 namespace nvm_ros {
 namespace {
 
-using nvm::lio::ImuSample;
+using nvm::ImuSample;
 using WhenFull = SensorQueue::WhenFull;
 
 RawCloud cloud(double stamp) {

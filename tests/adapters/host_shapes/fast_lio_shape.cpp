@@ -9,8 +9,8 @@
 #include <iostream>
 
 #include "adapters/host_shapes/host_run.hpp"
-#include "io/map_cloud.hpp"
-#include "io/trajectory_io.hpp"
+#include "io/result/map_cloud.hpp"
+#include "io/sequence/trajectory_io.hpp"
 
 namespace {
 

@@ -83,7 +83,7 @@ HostOdometry::HostOdometry(const HostShape& shape, HostMapKind kind, const Pose&
   map_->start(shape.filter_size);
 }
 
-std::optional<Pose> HostOdometry::process(const lio::Scan& scan) {
+std::optional<Pose> HostOdometry::process(const Scan& scan) {
   if (!filter_ && !initialize(scan.t_end)) {
     return std::nullopt;
   }
@@ -98,9 +98,9 @@ std::optional<Pose> HostOdometry::process(const lio::Scan& scan) {
 }
 
 bool HostOdometry::initialize(double until) {
-  std::vector<lio::ImuSample> samples;
+  std::vector<ImuSample> samples;
   imu_.between(initialized_until_, until, 0.0, samples);
-  for (const lio::ImuSample& sample : samples) {
+  for (const ImuSample& sample : samples) {
     if (sample.time > initialized_until_) {
       initializer_.add(sample);
       initialized_until_ = sample.time;
@@ -113,8 +113,8 @@ bool HostOdometry::initialize(double until) {
   return filter_.has_value();
 }
 
-void HostOdometry::predict(const lio::Scan& scan) {
-  std::vector<lio::ImuSample> samples;
+void HostOdometry::predict(const Scan& scan) {
+  std::vector<ImuSample> samples;
   std::vector<lio::MotionSegment> segments;
   imu_.between(filter_->state().time, scan.t_end, kMaxGap, samples);
   for (std::size_t i = 1; i < samples.size(); ++i) {
@@ -126,7 +126,7 @@ void HostOdometry::predict(const lio::Scan& scan) {
     segments.push_back(filter_->coast(scan.t_end, Eigen::Vector3d::Zero()));
   }
   imu_.use_until(scan.t_end);
-  lio::Scan kept{scan.t_begin, scan.t_end, {}};
+  Scan kept{scan.t_begin, scan.t_end, {}};
   for (std::size_t i = 0; i < scan.points.size(); i += shape_.keep_every) {
     kept.points.push_back(scan.points[i]);
   }

@@ -8,10 +8,10 @@
 
 #include "adapters/common/scan_normals.hpp"
 #include "adapters/host_shapes/host_map.hpp"
-#include "lio/deskew.hpp"
-#include "lio/error_state_filter.hpp"
-#include "lio/imu_buffer.hpp"
-#include "lio/imu_initializer.hpp"
+#include "lio/imu/imu_buffer.hpp"
+#include "lio/imu/imu_initializer.hpp"
+#include "lio/scan/deskew.hpp"
+#include "lio/state/error_state_filter.hpp"
 
 namespace nvm::test {
 
@@ -39,9 +39,9 @@ class HostOdometry {
  public:
   HostOdometry(const HostShape& shape, HostMapKind kind, const Pose& T_imu_lidar);
 
-  void add_imu(const lio::ImuSample& sample) { imu_.add(sample); }
+  void add_imu(const ImuSample& sample) { imu_.add(sample); }
   /// T_map_body at the scan's end; nothing until the filter and the map have been made.
-  std::optional<Pose> process(const lio::Scan& scan);
+  std::optional<Pose> process(const Scan& scan);
   /// The last scan, deskewed to its end, LiDAR frame.
   const lio::DeskewedScan& scan() const { return scan_; }
   Pose T_map_lidar() const { return filter_->state().T_world_lidar(); }
@@ -58,7 +58,7 @@ class HostOdometry {
   enum class Place { kNone, kCrowded, kAlone };
 
   bool initialize(double until);
-  void predict(const lio::Scan& scan);
+  void predict(const Scan& scan);
   void thin();
   HostPoint to_map(const HostPoint& point, const lio::NavState& state) const;
   bool linearize(const lio::NavState& state, bool associate, lio::Information& out);

@@ -6,8 +6,8 @@
 #include <ctime>
 #include <sstream>
 
-#include "eval/evaluation.hpp"
-#include "io/nvm_sequence_reader.hpp"
+#include "eval/report/evaluation.hpp"
+#include "io/sequence/nvm_sequence_reader.hpp"
 
 namespace nvm::test {
 namespace {
@@ -53,8 +53,8 @@ HostOutput drive_host(const std::string& folder, const HostShape& shape, HostMap
   constexpr double kAhead = 0.01;  // the reading after the scan's end [s]
   HostOutput output;
   std::size_t scans = 0;
-  while (const std::optional<lio::Scan> scan = sequence->next_scan()) {
-    for (const lio::ImuSample& sample : sequence->imu_until(scan->t_end + kAhead)) {
+  while (const std::optional<Scan> scan = sequence->next_scan()) {
+    for (const ImuSample& sample : sequence->imu_until(scan->t_end + kAhead)) {
       host.add_imu(sample);
     }
     const double begin = cpu_ms();

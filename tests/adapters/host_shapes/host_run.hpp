@@ -6,7 +6,7 @@
 #include <string>
 
 #include "adapters/host_shapes/host_odometry.hpp"
-#include "eval/oriented_cloud.hpp"
+#include "eval/walls/oriented_cloud.hpp"
 #include "nvm/geometry/trajectory.hpp"
 
 namespace nvm::test {

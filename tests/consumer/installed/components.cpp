@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#include "eval/evaluation.hpp"
-#include "io/sequence_reader.hpp"
-#include "lio/pipeline_options.hpp"
+#include "eval/report/evaluation.hpp"
+#include "io/sequence/sequence_reader.hpp"
+#include "lio/pipeline/pipeline_options.hpp"
 #include "sim/simulation.hpp"
 
 // One function of each compiled component: the linker has to find all that they need.

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include "io/message/message_pipe.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <deque>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <utility>
+
+#include "io/file/file.hpp"
+#include "io/message/message_sequence.hpp"
+
+namespace nvm::io {
+namespace {
+
+constexpr std::uint32_t kMaxSize = 1U << 28;  // [bytes] of a message
+constexpr std::size_t kMaxAhead = 1U << 29;   // [bytes] read to see the first of a topic
+constexpr std::uint32_t kEnd = 0xffffffff;    // in the place of a topic: the recording is whole
+
+class MessagePipe : public MessageSource {
+ public:
+  explicit MessagePipe(const std::string& path) : stream_(open_to_read(path)), source_(path) {
+    std::string line;
+    std::getline(stream_, line);
+    const auto head = nlohmann::json::parse(line, nullptr, false);
+    if (!head.is_object() || head.value("format", "") != "nvm messages" ||
+        head.value("version", 0) != 1) {
+      fail(path, "is a pipe, but not of nvm messages of version 1");
+    }
+    source_ = head.value("source", path);
+    format_ = head.value("recording", "pipe");
+    for (const auto& topic : head.at("topics")) {
+      topics_.push_back(
+          {topic.at("name").get<std::string>(),
+           topic.at("type").get<std::string>(),
+           topic.at("count").get<std::size_t>()});
+    }
+  }
+
+  const std::string& source() const { return source_; }
+  std::string format() const override { return format_; }
+  std::vector<MessageTopic> topics() const override { return topics_; }
+
+  std::vector<RecordedMessage> first(const std::string& topic, std::size_t count) override {
+    std::vector<RecordedMessage> found;
+    std::size_t bytes = 0;
+    for (std::size_t i = 0; found.size() < std::min(count, count_of(topic)); ++i) {
+      if (i == ahead_.size()) {
+        auto message = bytes <= kMaxAhead ? read() : std::nullopt;
+        if (!message) {
+          break;
+        }
+        ahead_.push_back(std::move(*message));
+      }
+      bytes += ahead_[i].bytes.size();
+      if (ahead_[i].topic == topic) {
+        found.push_back(ahead_[i]);
+      }
+    }
+    return found;
+  }
+
+  /// The writer sends the topics that are to be read, and no other.
+  void select(const std::vector<std::string>& /*topics*/) override {}
+
+  std::optional<RecordedMessage> next() override {
+    if (ahead_.empty()) {
+      return read();
+    }
+    RecordedMessage message = std::move(ahead_.front());
+    ahead_.pop_front();
+    return message;
+  }
+
+ private:
+  std::size_t count_of(const std::string& name) const {
+    std::size_t count = 0;
+    for (const MessageTopic& topic : topics_) {
+      count += topic.name == name ? topic.count : 0;
+    }
+    return count;
+  }
+
+  template <class T>
+  T get() {
+    char raw[sizeof(T)];
+    get(raw, sizeof(T));
+    T value;
+    std::memcpy(&value, raw, sizeof(T));
+    return value;
+  }
+
+  void get(char* to, std::size_t size) {
+    if (!stream_.read(to, static_cast<std::streamsize>(size))) {
+      fail(source_, "ended before its last message: whoever read it stopped");
+    }
+  }
+
+  std::optional<RecordedMessage> read() {
+    if (is_over_) {
+      return std::nullopt;
+    }
+    const auto topic = get<std::uint32_t>();
+    if (topic == kEnd) {
+      is_over_ = true;
+      return std::nullopt;
+    }
+    RecordedMessage message;
+    message.record_time = get<double>();
+    const auto size = get<std::uint32_t>();
+    if (topic >= topics_.size() || size > kMaxSize) {
+      fail(source_, fmt::format("sent a message of topic {} with {} bytes", topic, size));
+    }
+    message.topic = topics_[topic].name;
+    message.type = topics_[topic].type;
+    message.bytes.resize(size);
+    get(message.bytes.data(), size);
+    return message;
+  }
+
+  std::ifstream stream_;
+  std::string source_;  ///< the recording, for messages
+  std::string format_;
+  std::vector<MessageTopic> topics_;
+  std::deque<RecordedMessage> ahead_;
+  bool is_over_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<SequenceReader> open_message_pipe(
+    const std::string& path, const SequenceOptions& options) {
+  auto pipe = std::make_unique<MessagePipe>(path);
+  const std::string source = pipe->source();
+  return read_messages(source, std::move(pipe), options);
+}
+
+}  // namespace nvm::io

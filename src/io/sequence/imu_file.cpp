@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include "io/sequence/imu_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+namespace nvm::io {
+
+ImuFile::ImuFile(const std::string& path) : rows_(path, {"t", "gx", "gy", "gz", "ax", "ay", "az"}) {
+  advance();
+}
+
+std::vector<ImuSample> ImuFile::until(double time) {
+  std::vector<ImuSample> samples;
+  while (next_ && next_->time <= time) {
+    gaps_.add(next_->time);
+    samples.push_back(*next_);
+    advance();
+  }
+  return samples;
+}
+
+void ImuFile::advance() {
+  while (true) {
+    try {
+      next_ = read_row();
+      return;
+    } catch (const std::runtime_error& error) {
+      bad_rows_.add(error.what());
+    }
+  }
+}
+
+std::optional<ImuSample> ImuFile::read_row() {
+  const auto cells = rows_.next();
+  if (!cells) {
+    return std::nullopt;
+  }
+  std::array<double, 7> values{};
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i] = rows_.line().number((*cells)[i]);
+  }
+  const ImuSample sample = {
+      values[0], {values[1], values[2], values[3]}, {values[4], values[5], values[6]}};
+  if (const auto problem = problem_of(sample)) {
+    rows_.line().fail(*problem);
+  }
+  if (sample.time <= previous_) {
+    rows_.line().fail("the time is not above that of the sample before");
+  }
+  previous_ = sample.time;
+  return sample;
+}
+
+std::optional<std::string> problem_of(const ImuSample& sample) {
+  constexpr double kAbsurd = 1e5;  // beyond any sensor in deg/s, and in milli-g
+  const double largest =
+      std::max(sample.gyro.cwiseAbs().maxCoeff(), sample.accel.cwiseAbs().maxCoeff());
+  if (!sample.gyro.allFinite() || !sample.accel.allFinite()) {
+    return "a reading is not finite";
+  }
+  return largest > kAbsurd ? std::optional<std::string>("a reading is absurd, above 1e5")
+                           : std::nullopt;
+}
+
+}  // namespace nvm::io

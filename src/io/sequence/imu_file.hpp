@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/sensor_data.hpp"
+#include "io/file/csv_reader.hpp"
+#include "io/sequence/imu_gap_monitor.hpp"
+#include "io/sequence/left_out.hpp"
+
+namespace nvm::io {
+
+/// The samples of an imu.csv (t,gx,gy,gz,ax,ay,az in s, rad/s, m/s^2) in order of time. Rows that
+/// are no sample (not seven finite numbers, absurd ones, a time that repeats or goes back) are left
+/// out. Throws std::runtime_error, naming the file, when it lacks a column.
+class ImuFile {
+ public:
+  explicit ImuFile(const std::string& path);
+
+  /// The samples not yet handed out with time <= `time`.
+  std::vector<ImuSample> until(double time);
+
+  /// The gaps among the samples handed out.
+  const ImuGapMonitor& gaps() const { return gaps_; }
+
+  /// The rows that were left out so far.
+  const LeftOut& bad_rows() const { return bad_rows_; }
+
+ private:
+  void advance();
+  std::optional<ImuSample> read_row();
+
+  CsvReader rows_;
+  std::optional<ImuSample> next_;
+  ImuGapMonitor gaps_;
+  LeftOut bad_rows_{"rows of imu.csv are"};
+  double previous_ = -std::numeric_limits<double>::infinity();
+};
+
+/// Nothing when the readings are such as an IMU may give, in any unit in use; else what is wrong.
+std::optional<std::string> problem_of(const ImuSample& sample);
+
+}  // namespace nvm::io

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include "lio/imu/imu_findings.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "common/printed.hpp"
+
+namespace nvm::lio {
+
+std::string rotation_finding(const TurnComparison& turns, const Pose& T_body_lidar) {
+  constexpr double kDegrees = 57.29577951308232;
+  const Eigen::Matrix3d R = turns.rotation.transpose() * T_body_lidar.linear();
+  const Eigen::Quaterniond q(R);
+  const Eigen::AngleAxisd turn(turns.rotation);
+  const Eigen::Vector3d p = T_body_lidar.translation();
+  return printed(
+      "the LiDAR is turned against the IMU by %.0f degrees about (%.2f, %.2f, %.2f): their "
+      "turn rates agree that way only, so T_imu_lidar is missing or wrong; the scans alone are "
+      "used. Set input.T_imu_lidar=[%.3f, %.3f, %.3f, %.4f, %.4f, %.4f, %.4f]%s",
+      turn.angle() * kDegrees,
+      turn.axis().x(),
+      turn.axis().y(),
+      turn.axis().z(),
+      p.x(),
+      p.y(),
+      p.z(),
+      q.x(),
+      q.y(),
+      q.z(),
+      q.w(),
+      turns.is_about_one_axis
+          ? " (the sensor turned about one axis alone: a turn about that axis is not known)"
+          : "");
+}
+
+std::string offset_finding(double offset) {
+  return printed(
+      "the IMU's clock is %.0f ms %s: the scans turn when the gyroscope does only if "
+      "imu.time_offset=%.3f is set",
+      1e3 * std::abs(offset),
+      offset > 0.0 ? "late" : "early",
+      -offset);
+}
+
+std::string mended_offset_finding(double offset) {
+  return printed(
+      "the IMU's clock is %.1f ms %s, for the gyroscope turns then and the scans do not: its times "
+      "are mended (imu.time_offset=%.4f does so from the beginning, "
+      "imu.learn_time_offset=false leaves them)",
+      1e3 * std::abs(offset),
+      offset > 0.0 ? "late" : "early",
+      -offset);
+}
+
+std::string drift_finding(double first, double last) {
+  return printed(
+      "the IMU's clock drifts: it was %.0f ms late at first and %.0f ms in the end (negative: "
+      "early). Its times are mended; let both sensors have one clock (PTP, PPS)",
+      1e3 * first,
+      1e3 * last);
+}
+
+std::string gravity_finding(double felt, double gravity) {
+  return printed(
+      "the accelerometer feels %.2f m/s^2 of gravity, not %.2f: its driver removes gravity or "
+      "sends no accelerations; the scans alone are used. Record raw accelerations, or set "
+      "imu.accel_scale",
+      felt,
+      gravity);
+}
+
+std::string mirror_finding() {
+  return "the accelerometer goes against the scans' motion, but not with all of its axes: one is "
+         "turned round, or they are swapped; the scans alone are used. Set imu.accel_scale=-1 if "
+         "all have the wrong sign";
+}
+
+std::string contradiction_finding(std::size_t times, bool still) {
+  return printed(
+      "scans lay elsewhere than the IMU had led the pose (times: %zu): the scans alone were used "
+      "from "
+      "there%s. Check that it is this LiDAR's IMU, its axes (input.T_imu_lidar) and its clock",
+      times,
+      still ? " to the end" : " until both told the same motion again");
+}
+
+std::string clipping_finding(
+    const char* sensor, const char* unit, const ImuClipping::Axis& axis, double scale) {
+  return printed(
+      "the %s never reads more than %.3g %s about %c, where %.0f %% of its readings stand: what "
+      "lies beyond its range is cut off; the scans alone are used. Set a larger range in its "
+      "driver",
+      sensor,
+      std::abs(scale) * axis.limit,
+      unit,
+      "xyz"[axis.index],
+      100.0 * axis.share);
+}
+
+std::string left_out_finding(const ImuBufferStats& stats) {
+  const std::size_t count = stats.non_finite + stats.implausible;
+  if (count == 0) {
+    return "";
+  }
+  const std::string longest = stats.longest_outage > 0.0
+                                  ? printed(
+                                        "; the longest such time is %.3f s at t = %.3f s",
+                                        stats.longest_outage,
+                                        stats.outage_begin)
+                                  : "";
+  return printed(
+      "%zu IMU readings are left out: they are not finite, beyond any IMU, or leap away, fall to "
+      "zero or stand still as no motion does%s. The motion is bridged there; look at the IMU's "
+      "cable and driver",
+      count,
+      longest.c_str());
+}
+
+}  // namespace nvm::lio

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "lio/imu/imu_buffer.hpp"
+#include "lio/imu/imu_clipping.hpp"
+#include "lio/imu/turn_comparison.hpp"
+#include "nvm/geometry/pose.hpp"
+
+namespace nvm::lio {
+
+// What is said of an IMU, a line each: what was seen, what it usually means, what mends it.
+
+/// `T_body_lidar` is the extrinsic that the poses take for granted.
+std::string rotation_finding(const TurnComparison& turns, const Pose& T_body_lidar);
+
+/// `offset` [s] as in TurnComparison.
+std::string offset_finding(double offset);
+/// Of one that was mended.
+std::string mended_offset_finding(double offset);
+/// Of one that was `first` and `last` [s], and was mended.
+std::string drift_finding(double first, double last);
+
+/// `felt` and `gravity` [m/s^2].
+std::string gravity_finding(double felt, double gravity);
+
+/// Of an accelerometer.
+std::string mirror_finding();
+
+/// `times` the scans alone went on, and do `still`.
+std::string contradiction_finding(std::size_t times, bool still);
+
+/// `scale` makes `unit` of the readings.
+std::string clipping_finding(
+    const char* sensor, const char* unit, const ImuClipping::Axis& axis, double scale);
+
+/// Of readings that were left out; empty without any.
+std::string left_out_finding(const ImuBufferStats& stats);
+
+}  // namespace nvm::lio

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include "lio/imu/imu_judge.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "lio/imu/imu_findings.hpp"
+#include "lio/imu/is_about.hpp"
+
+namespace nvm::lio {
+
+namespace {
+
+constexpr double kStandardGravity = 9.80665;  // [m/s^2]
+
+/// Scans and accelerometer tell the same motion: poses this near to the fit [m], and gravity.
+constexpr double kMaxRms = 0.03;
+constexpr double kGravityError = 0.08;  // share
+
+bool is_final(ImuVerdict verdict) {
+  return verdict == ImuVerdict::kMended || verdict == ImuVerdict::kDoubtful ||
+         verdict == ImuVerdict::kUnusable;
+}
+
+}  // namespace
+
+ImuJudge::ImuJudge(const ImuInputOptions& options, const Pose& T_body_lidar, double gravity)
+    : options_((options.validate(), options)),
+      T_body_lidar_(T_body_lidar),
+      gravity_(gravity),
+      gyro_scale_(options.gyro_scale == 0.0 ? 1.0 : options.gyro_scale),
+      accel_scale_(options.accel_scale == 0.0 ? 1.0 : options.accel_scale) {}
+
+ImuSample ImuJudge::mended(const ImuSample& reading) const {
+  return {reading.time, gyro_scale_ * reading.gyro, accel_scale_ * reading.accel};
+}
+
+void ImuJudge::add(const ImuSample& reading) {
+  constexpr double kMaxDifference = 0.05;  // from 1 g at rest
+  if (!knows_unit()) {
+    ++unit_count_;
+    unit_sum_ += reading.accel;
+    sq_unit_sum_ += reading.accel.squaredNorm();
+    const Eigen::Vector3d mean = unit_sum_ / unit_count_;
+    const double variance = sq_unit_sum_ / unit_count_ - mean.squaredNorm();
+    const bool is_g =
+        is_about(mean.norm(), 1.0, kMaxDifference) && variance <= kMaxDifference * kMaxDifference;
+    if (knows_unit() && is_g && options_.accel_scale == 0.0) {
+      measure_in_g();
+    }
+  }
+  gyro_clipping_.add(reading.gyro);
+  accel_clipping_.add(reading.accel);
+  history_.add(mended(reading));
+}
+
+ImuVerdict ImuJudge::judge_rest(const Eigen::Vector3d& force) {
+  constexpr double kTooLittle = 0.97;  // of gravity
+  const auto stuck = accel_clipping_.stuck();
+  if (stuck && force.norm() < kTooLittle * gravity_) {
+    tell(clipping_finding("accelerometer", "m/s^2", *stuck, accel_scale_));
+    return ImuVerdict::kUnusable;
+  }
+  if (options_.accel_scale == 0.0) {
+    rest_.set(force, gravity_);
+  }
+  return ImuVerdict::kUnknown;
+}
+
+ImuVerdict ImuJudge::inspect(double time) {
+  constexpr double kPeriod = 3.0;  // [s]
+  if (const auto axis = gyro_clipping_.clipped()) {
+    tell(clipping_finding("gyroscope", "rad/s", *axis, gyro_scale_));
+    return ImuVerdict::kUnusable;
+  }
+  if (const auto axis = accel_clipping_.clipped()) {
+    tell(clipping_finding("accelerometer", "m/s^2", *axis, accel_scale_));
+    return ImuVerdict::kUnusable;
+  }
+  look_at_clock(time);
+  if (time < inspected_ + kPeriod || history_.duration() < kPeriod) {
+    return ImuVerdict::kUnknown;
+  }
+  inspected_ = time;
+  return weigh_rest(kPeriod);
+}
+
+ImuVerdict ImuJudge::weigh_rest(double duration) {
+  if (!rest_.is_open()) {
+    return ImuVerdict::kUnknown;
+  }
+  rest_.weigh(history_, duration);
+  if (!rest_.scale()) {
+    return ImuVerdict::kUnknown;
+  }
+  accel_scale_ *= *rest_.scale();
+  history_.clear();
+  return ImuVerdict::kMended;
+}
+
+std::vector<std::string> ImuJudge::summary() const {
+  std::vector<std::string> lines = findings_;
+  const std::string clocks = tells_offset_ ? "" : clocks_.finding();
+  for (const std::string& line : {rest_.finding(accel_scale_), clocks}) {
+    if (!line.empty()) {
+      lines.push_back(line);
+    }
+  }
+  return lines;
+}
+
+void ImuJudge::measure_in_g() {
+  accel_scale_ = kStandardGravity;
+  tell(
+      "the accelerometer measures in g, for it reads 1 where gravity is felt: multiplied by "
+      "9.80665 (imu.accel_scale sets another factor)");
+}
+
+void ImuJudge::tell(std::string finding) {
+  const bool is_new = std::find(findings_.begin(), findings_.end(), finding) == findings_.end();
+  if (is_new) {
+    findings_.push_back(std::move(finding));
+  }
+}
+
+ImuVerdict ImuJudge::judge(double duration) {
+  constexpr double kMaxMismatch = 0.06;  // a misalignment of 14 degrees
+  constexpr double kUnturned = 6.0;      // [s]
+  constexpr double kRounding = 0.01;     // [s]
+  const ImuVerdict turns = judge_turns(kMaxMismatch, true);
+  const ImuVerdict gravity = is_final(turns) ? turns : judge_gravity();
+  const ImuVerdict sign = is_final(gravity) ? gravity : judge_sign(turns);
+  if (is_final(sign)) {
+    return sign;
+  }
+  // Who does not turn for long may begin without the gyroscope's proof.
+  const bool has_proof = turns == ImuVerdict::kGood || history_.duration() >= kUnturned;
+  const bool agrees = has_proof && history_.duration() >= duration - kRounding && motion();
+  return agrees ? ImuVerdict::kGood : ImuVerdict::kUnknown;
+}
+
+ImuVerdict ImuJudge::watch() {
+  constexpr double kMaxMismatch = 0.2;
+  const ImuVerdict turns = judge_turns(kMaxMismatch, false);
+  return is_final(turns) ? turns : judge_sign(turns);
+}
+
+ImuVerdict ImuJudge::judge_gravity() {
+  constexpr double kDuration = 1.0;  // [s]
+  constexpr double kTolerance = 0.3;
+  const std::optional<MotionFit> fit = fit_motion(history_, kDuration, 1.0);
+  if (!fit || history_.duration() < 0.9 * kDuration) {
+    return ImuVerdict::kUnknown;
+  }
+  if (is_about(fit->gravity.norm(), gravity_, kTolerance)) {
+    return ImuVerdict::kGood;
+  }
+  const std::optional<MotionFit> in_g = fit_motion(history_, kDuration, kStandardGravity);
+  if (in_g && accel_scale_ == 1.0 && options_.accel_scale == 0.0 && in_g->position_rms <= kMaxRms &&
+      is_about(in_g->gravity.norm(), gravity_, kGravityError)) {
+    measure_in_g();
+    history_.clear();
+    return ImuVerdict::kMended;
+  }
+  tell(gravity_finding(fit->gravity.norm(), gravity_));
+  return ImuVerdict::kUnusable;
+}
+
+// Accelerations at wrong times may go against the scans' as well.
+ImuVerdict ImuJudge::judge_sign(ImuVerdict turns) {
+  constexpr double kDuration = 3.0;  // [s]
+  constexpr double kMaxDeviation = 0.2;
+  const std::optional<MotionFit> fit = fit_motion(history_, kDuration, 0.0);
+  if (turns != ImuVerdict::kGood || has_offset_ || !fit ||
+      fit->accel_scale_deviation > kMaxDeviation) {
+    return ImuVerdict::kUnknown;
+  }
+  if (!is_about(fit->accel_scale, -1.0, 0.4) || options_.accel_scale != 0.0) {
+    return ImuVerdict::kGood;
+  }
+  if (!is_about(fit->accel_scale, -1.0, kMaxDeviation)) {
+    tell(mirror_finding());
+    return ImuVerdict::kUnusable;
+  }
+  accel_scale_ = -accel_scale_;
+  history_.clear();
+  tell(
+      "the accelerometer's sign is wrong: it reads the negative of what the scans' motion and "
+      "gravity make it feel; turned round (imu.accel_scale=-1 says so from the beginning)");
+  return ImuVerdict::kMended;
+}
+
+std::optional<MotionFit> ImuJudge::motion() const {
+  constexpr double kDuration = 1.0;  // [s]
+  const std::optional<MotionFit> fit = fit_motion(history_, kDuration, 1.0);
+  const bool agrees = fit && history_.duration() >= 0.9 * kDuration &&
+                      fit->position_rms <= kMaxRms &&
+                      is_about(fit->gravity.norm(), gravity_, kGravityError);
+  return agrees ? fit : std::nullopt;
+}
+
+}  // namespace nvm::lio
