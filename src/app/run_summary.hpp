@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "app/insert_totals.hpp"
-#include "app/main_axis.hpp"
 #include "app/stages.hpp"
 #include "app/time_spans.hpp"
+#include "lio/match/main_axis.hpp"
 #include "lio/pipeline/pipeline.hpp"
 
 namespace nvm::app {
@@ -97,7 +97,7 @@ class RunSummary {
        {lio::FrameStatus::kLost, "they have no pose"},
        {lio::FrameStatus::kSkipped, "they have no pose"}}};
   TimeSpans unobserved_;  ///< frames that are degenerate
-  MainAxis unobserved_along_, unobserved_about_;
+  lio::MainAxis unobserved_along_, unobserved_about_;
   std::array<StageSummary, 7> summaries_;  ///< in the order of stages()
 };
 

@@ -79,22 +79,27 @@ std::string UnobservedDirections::text() const {
   return text;
 }
 
-UnobservedDirections unobserved_by(
-    const AlignResult& aligned, double mean_range, const Eigen::Matrix3d& R_body_scan) {
-  if (aligned.degenerate_directions == 6 || !(mean_range > 0.0)) {
+UnobservedDirections faintest_directions(
+    const AlignResult& aligned, int count, double mean_range, const Eigen::Matrix3d& R_body_scan) {
+  if (count == 6 || !(mean_range > 0.0)) {
     return UnobservedDirections::all();
   }
-  UnobservedDirections unobserved;
-  if (aligned.degenerate_directions > 0) {
+  UnobservedDirections faintest;
+  if (count > 0) {
     const Eigen::Matrix<double, 6, 1> scale = arc_scale(mean_range, 0);  // of a PoseStep
     const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(
         Matrix6(scale.asDiagonal() * aligned.information * scale.asDiagonal()));
-    for (int i = 0; i < aligned.degenerate_directions; ++i) {
+    for (int i = 0; i < count; ++i) {
       const Eigen::Matrix<double, 6, 1> direction = eigen.eigenvectors().col(i);
-      unobserved.add(direction.tail<3>(), R_body_scan * direction.head<3>());
+      faintest.add(direction.tail<3>(), R_body_scan * direction.head<3>());
     }
   }
-  return unobserved;
+  return faintest;
+}
+
+UnobservedDirections unobserved_by(
+    const AlignResult& aligned, double mean_range, const Eigen::Matrix3d& R_body_scan) {
+  return faintest_directions(aligned, aligned.degenerate_directions, mean_range, R_body_scan);
 }
 
 }  // namespace nvm::lio

@@ -19,6 +19,11 @@ namespace nvm::lio {
 UnobservedDirections remove_unobserved(
     Information& information, double mean_range, double min_observability);
 
+/// The `count` (0 to 6) directions that an alignment of points at `mean_range` [m] tells least of;
+/// `R_body_scan` is the extrinsic's rotation.
+UnobservedDirections faintest_directions(
+    const AlignResult& aligned, int count, double mean_range, const Eigen::Matrix3d& R_body_scan);
+
 /// The directions along which an alignment of points at `mean_range` [m] has kept its guess;
 /// `R_body_scan` is the extrinsic's rotation.
 UnobservedDirections unobserved_by(

@@ -98,6 +98,11 @@ void LidarOdometry::follow(const Scan& scan, FrameResult& result) {
   insert(normals, result);
 }
 
+std::vector<std::string> LidarOdometry::findings() const {
+  const std::string finding = faint_.finding();
+  return finding.empty() ? std::vector<std::string>{} : std::vector<std::string>{finding};
+}
+
 bool LidarOdometry::is_usable(const Scan& scan, FrameResult& result) const {
   if (scan.points.empty()) {
     result.message = "the scan is empty";
@@ -155,13 +160,14 @@ void LidarOdometry::match(const Normals& normals, FrameResult& result) {
   result.residuals = aligned.counts.valid;
   result.residual_rms = aligned.rms_distance;
   result.inlier_share = aligned.inlier_share();
-  result.unobserved =
-      unobserved_by(aligned, mean_range(key_points_), options_.T_body_lidar.linear());
+  const double range = mean_range(key_points_);
+  result.unobserved = unobserved_by(aligned, range, options_.T_body_lidar.linear());
   result.degenerate_directions = result.unobserved.count();
   result.iterations = aligned.iterations;
   if (is_believable(aligned)) {
     result.T_map_lidar = aligned.T_map_scan;
     result.pose_covariance = covariance_of(aligned, options_.T_body_lidar);
+    faint_.add(aligned, range, options_.T_body_lidar.linear());
     describe_directions(result);
     return;
   }

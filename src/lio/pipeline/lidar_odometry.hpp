@@ -5,9 +5,11 @@
 #include <Eigen/Core>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "common/executor.hpp"
+#include "lio/match/faint_direction.hpp"
 #include "lio/pipeline/lidar_odometry_options.hpp"
 #include "lio/pipeline/pipeline.hpp"
 #include "lio/place/start_search.hpp"
@@ -52,6 +54,7 @@ class LidarOdometry final : public Pipeline {
   const DeskewedScan& scan() const override { return scan_; }
   const std::vector<Eigen::Vector3f>& normals() const override { return *normals_; }
   void start_at(const Pose& T_map_body) override;
+  std::vector<std::string> findings() const override;
 
  private:
   using Normals = std::vector<Eigen::Vector3f>;
@@ -80,7 +83,8 @@ class LidarOdometry final : public Pipeline {
   std::shared_ptr<StartSearch> search_;
   std::shared_ptr<LioMap> map_;
   std::optional<ConstantVelocity> motion_;  // of the body; nothing before the first believed scan
-  NavState predicted_;                      // at the end of the scan in work
+  FaintDirection faint_;
+  NavState predicted_;          // at the end of the scan in work
   double observed_time_ = 0.0;  // of the last believed frame that told all directions [s]
   std::optional<Scan> first_;   // of the map, until the second tells how it moved
   Pose first_pose_;             // T_map_body of it

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-namespace nvm::app {
+namespace nvm::lio {
 
 /// The axis that most of many directions lie along; a direction and its opposite are the same.
 class MainAxis {
@@ -21,4 +21,4 @@ class MainAxis {
   Eigen::Matrix3d scatter_ = Eigen::Matrix3d::Zero();
 };
 
-}  // namespace nvm::app
+}  // namespace nvm::lio

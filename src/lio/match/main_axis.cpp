@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#include "app/main_axis.hpp"
+#include "lio/match/main_axis.hpp"
 
 #include <Eigen/Eigenvalues>
 
-namespace nvm::app {
+namespace nvm::lio {
 
 void MainAxis::add(const std::vector<Eigen::Vector3d>& directions) {
   for (const Eigen::Vector3d& direction : directions) {
@@ -20,4 +20,4 @@ std::optional<Eigen::Vector3d> MainAxis::axis() const {
   return eigen.eigenvectors().col(2);
 }
 
-}  // namespace nvm::app
+}  // namespace nvm::lio
