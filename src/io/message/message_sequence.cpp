@@ -15,6 +15,7 @@
 #include "io/message/ros_messages.hpp"
 #include "io/scan/cloud_stream.hpp"
 #include "io/scan/scan_converter.hpp"
+#include "io/scan/sweep_overlap.hpp"
 #include "io/sequence/imu_file.hpp"
 #include "io/sequence/imu_gap_monitor.hpp"
 #include "io/sequence/left_out.hpp"
@@ -155,8 +156,25 @@ class MessageSequence : public SequenceReader {
     }
     converter_ = ScanConverter(times);
     converter_.learn(clouds);
+    if (const std::string overlap = overlap_.learn(sweeps(clouds)); !overlap.empty()) {
+      info_.notes.push_back(overlap);
+    }
     info_.has_point_times = converter_.has_point_times();
     info_.origin = converter_.origin();
+  }
+
+  /// Of `clouds`, without counting what is wrong with them: they come again.
+  std::vector<Scan> sweeps(const std::vector<CloudMessage>& clouds) const {
+    ScanConverter converter = converter_;
+    std::vector<Scan> sweeps;
+    for (const CloudMessage& cloud : clouds) {
+      try {
+        sweeps.push_back(converter.convert(cloud.records, cloud.stamp));
+      } catch (const std::runtime_error&) {
+        continue;  // advance() counts it
+      }
+    }
+    return sweeps;
   }
 
   /// Reads one message; false at the end. A bad one is counted and left out.
@@ -191,6 +209,7 @@ class MessageSequence : public SequenceReader {
     if (scan.t_begin <= previous_scan_) {
       refuse_time(cloud.stamp);
     }
+    overlap_.check(scan);
     previous_scan_ = scan.t_begin;
     scans_.push_back(std::move(scan));
   }
@@ -219,6 +238,7 @@ class MessageSequence : public SequenceReader {
   mutable SequenceInfo info_;
   std::size_t fixed_notes_ = 0;  ///< the notes before those that change while reading
   CloudStream stream_;
+  SweepOverlap overlap_;
   ScanConverter converter_;
   Clocks clocks_;
   LeftOut bad_clouds_{"clouds are"};
