@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <numeric>
 
@@ -13,12 +14,13 @@ namespace nvm::lio {
 
 namespace {
 
-using Cell = std::array<int, 3>;
+using Cell = std::array<std::int64_t, 3>;
 
 Cell cell_of(const Eigen::Vector3d& position, double size) {
   Cell cell{};
   for (int axis = 0; axis < 3; ++axis) {
-    cell[static_cast<std::size_t>(axis)] = static_cast<int>(std::floor(position[axis] / size));
+    cell[static_cast<std::size_t>(axis)] =
+        static_cast<std::int64_t>(std::floor(position[axis] / size));
   }
   return cell;
 }

@@ -64,11 +64,13 @@ void LidarOdometry::continue_from(const ConstantVelocity& motion) {
 FrameResult LidarOdometry::locate(const Scan& scan) {
   const double time = predicted_.time;
   const double observed_time = observed_time_;
+  const FaintDirection faint = faint_;
   FrameResult result;
   result.time = scan.t_end;
   match(prepare(scan, result), result);
   predicted_.time = time;
   observed_time_ = observed_time;
+  faint_ = faint;
   return result;
 }
 
