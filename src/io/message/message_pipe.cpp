@@ -19,6 +19,8 @@
 namespace nvm::io {
 namespace {
 
+constexpr const char* kIsOther = "is a pipe, but not of nvm messages of version 1";
+constexpr std::size_t kMaxHead = 1U << 20;    // [bytes]
 constexpr std::uint32_t kMaxSize = 1U << 28;  // [bytes] of a message
 constexpr std::size_t kMaxAhead = 1U << 29;   // [bytes] read to see the first of a topic
 constexpr std::uint32_t kEnd = 0xffffffff;    // in the place of a topic: the recording is whole
@@ -26,20 +28,10 @@ constexpr std::uint32_t kEnd = 0xffffffff;    // in the place of a topic: the re
 class MessagePipe : public MessageSource {
  public:
   explicit MessagePipe(const std::string& path) : stream_(open_to_read(path)), source_(path) {
-    std::string line;
-    std::getline(stream_, line);
-    const auto head = nlohmann::json::parse(line, nullptr, false);
-    if (!head.is_object() || head.value("format", "") != "nvm messages" ||
-        head.value("version", 0) != 1) {
-      fail(path, "is a pipe, but not of nvm messages of version 1");
-    }
-    source_ = head.value("source", path);
-    format_ = head.value("recording", "pipe");
-    for (const auto& topic : head.at("topics")) {
-      topics_.push_back(
-          {topic.at("name").get<std::string>(),
-           topic.at("type").get<std::string>(),
-           topic.at("count").get<std::size_t>()});
+    try {
+      read_head(nlohmann::json::parse(read_line()));
+    } catch (const nlohmann::json::exception&) {
+      fail(path, kIsOther);
     }
   }
 
@@ -79,6 +71,29 @@ class MessagePipe : public MessageSource {
   }
 
  private:
+  /// The first line, or as much of it as a head may have.
+  std::string read_line() {
+    std::string line;
+    for (char next = 0; line.size() < kMaxHead && stream_.get(next) && next != '\n';) {
+      line += next;
+    }
+    return line;
+  }
+
+  void read_head(const nlohmann::json& head) {
+    if (head.at("format") != "nvm messages" || head.at("version") != 1) {
+      fail(source_, kIsOther);
+    }
+    for (const auto& topic : head.at("topics")) {
+      topics_.push_back(
+          {topic.at("name").get<std::string>(),
+           topic.at("type").get<std::string>(),
+           topic.at("count").get<std::size_t>()});
+    }
+    format_ = head.value("recording", "pipe");
+    source_ = head.value("source", source_);
+  }
+
   std::size_t count_of(const std::string& name) const {
     std::size_t count = 0;
     for (const MessageTopic& topic : topics_) {
