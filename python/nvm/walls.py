@@ -18,8 +18,9 @@ def survey(map, out=None, **options) -> dict:
 
     Parameters
     ----------
-    map : VoxelMap, Store or (points, normals)
-        Points (N, 3) [m], and normals (N, 3) of unit length that look at where a point was seen from.
+    map : VoxelMap, Store, (points, normals) or path
+        Points (N, 3) [m], and normals (N, 3) of unit length that look at where a point was seen from. The path is that of
+        a folder of ``nvm run``, whose keyframes tell which sides were seen in one pass, and how far poses drift between.
     out : path, optional
         Folder for what ``nvm walls`` writes: list, plan and page.
     **options
@@ -41,8 +42,12 @@ def survey(map, out=None, **options) -> dict:
     RuntimeError
         When a file cannot be written, or a tile read.
     """
+    run_map = ""
+    if isinstance(map, (str, os.PathLike)):
+        run_map = os.path.join(map, "map.nvm")
+        map = _nvm.load(run_map)
     points, normals = points_of(map)
-    return json.loads(_nvm.survey(points, normals, "" if out is None else os.fspath(out), **options))
+    return json.loads(_nvm.survey(points, normals, "" if out is None else os.fspath(out), run_map, **options))
 
 
 def points_of(map):

@@ -10,6 +10,7 @@
 #include "arrays.hpp"
 #include "bind.hpp"
 #include "options.hpp"
+#include "survey/keyframes_beside.hpp"
 #include "survey/survey_files.hpp"
 #include "survey/survey_json.hpp"
 
@@ -28,7 +29,9 @@ points : (N, 3) float
 normals : (N, 3) float
     Unit vectors that look at where a point was seen from; zero where unknown.
 out : str
-    Folder for the files of ``nvm walls``; none when it is empty.)";
+    Folder for the files of ``nvm walls``; none when it is empty.
+map : str
+    The map.nvm that the points are of, for the keyframes beside it; empty when they are of no run.)";
 
 io::MapCloud cloud_from(nb::handle points, nb::handle normals) {
   const Vectors positions(points, "points");
@@ -45,11 +48,17 @@ io::MapCloud cloud_from(nb::handle points, nb::handle normals) {
 }
 
 std::string survey(
-    nb::handle points, nb::handle normals, const std::string& out, const nb::kwargs& keywords) {
+    nb::handle points,
+    nb::handle normals,
+    const std::string& out,
+    const std::string& map,
+    const nb::kwargs& keywords) {
   const auto options = options_from<survey::SurveyOptions>(keywords);
   const io::MapCloud cloud = cloud_from(points, normals);
+  const survey::KeyframeSource keyframes =
+      map.empty() ? nullptr : survey::keyframes_beside(map, Eigen::Vector3d::Zero());
   const nb::gil_scoped_release no_gil;
-  const survey::Survey found = survey::survey_walls(cloud, options);
+  const survey::Survey found = survey::survey_walls(cloud, options, keyframes);
   if (!out.empty()) {
     survey::write_survey(found, options.plan_height, out);
   }
@@ -65,6 +74,7 @@ void bind_survey(nb::module_& module) {
       "points"_a.none(),
       "normals"_a.none(),
       "out"_a,
+      "map"_a,
       "options"_a,
       documented<survey::SurveyOptions>(kSurveyDoc));
 }

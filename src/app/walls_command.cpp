@@ -20,6 +20,7 @@
 #include "io/result/tile_store.hpp"
 #include "nvm/map/serialization.hpp"
 #include "nvm/map/sighting.hpp"
+#include "survey/keyframes_beside.hpp"
 #include "survey/survey.hpp"
 #include "survey/survey_files.hpp"
 #include "survey/survey_table.hpp"
@@ -34,15 +35,38 @@ struct WallsArguments {
   survey::SurveyOptions options;
 };
 
-io::MapCloud read_map(const std::string& path) {
+/// `path`, or the map in it when it is a folder of results.
+std::string map_in(const std::string& path) {
+  const std::string file = path + "/map.nvm";
+  return std::filesystem::is_directory(path) && std::filesystem::exists(file) ? file : path;
+}
+
+bool is_cloud(const std::string& path) {
   const std::string extension = io::extension_of(path);
-  if (extension == ".ply" || extension == ".pcd") {
+  return extension == ".ply" || extension == ".pcd";
+}
+
+io::MapCloud read_map(const std::string& path) {
+  if (is_cloud(path)) {
     return io::read_map_cloud(path);
   }
   if (std::filesystem::is_directory(path)) {
     return io::read_tile_store(path);
   }
   return io::map_cloud_of(without_sightings(load_map(path).points()), io::read_origin(path));
+}
+
+/// What tells of passes over the map file `map`; without it they are unknown.
+survey::KeyframeSource keyframes_of(const std::string& map) {
+  if (is_cloud(map) || std::filesystem::is_directory(map)) {
+    return nullptr;
+  }
+  try {
+    return survey::keyframes_beside(map, io::read_origin(map));
+  } catch (const std::runtime_error& error) {
+    say(std::string("note: ") + error.what() + "; which sides were seen in one pass is unknown");
+    return nullptr;
+  }
 }
 
 void print_summary(const survey::Survey& found, const std::string& folder) {
@@ -57,11 +81,11 @@ void print_summary(const survey::Survey& found, const std::string& folder) {
 
 void list_walls(const WallsArguments& arguments) {
   arguments.options.validate();
-  const io::MapCloud cloud =
-      doing("loading " + arguments.map, [&] { return read_map(arguments.map); });
+  const std::string map = map_in(arguments.map);
+  const io::MapCloud cloud = doing("loading " + map, [&] { return read_map(map); });
   const survey::Survey found = doing("looking for walls", [&] {
     try {
-      return survey::survey_walls(cloud, arguments.options);
+      return survey::survey_walls(cloud, arguments.options, keyframes_of(map));
     } catch (const std::invalid_argument& error) {
       throw std::runtime_error(arguments.map + ": " + error.what());
     }
@@ -97,7 +121,9 @@ void add_walls_command(CLI::App& app) {
   survey::SurveyOptions& options = arguments->options;
   command
       ->add_option(
-          "MAP", arguments->map, "A map.nvm file, a store of tiles, or a PLY or PCD with normals")
+          "MAP",
+          arguments->map,
+          "A folder of nvm run, a map.nvm, a store of tiles, or a PLY or PCD with normals")
       ->required();
   command->add_option("--out", arguments->folder, "Folder of the results")->required();
   command->add_option("--height", options.plan_height, "Of the plan above the floor [m]")

@@ -11,6 +11,7 @@
 #include "survey/face.hpp"
 #include "survey/pairing.hpp"
 #include "survey/patch_grid.hpp"
+#include "survey/pose_evidence.hpp"
 #include "survey/region_growth.hpp"
 #include "survey/region_shadows.hpp"
 #include "survey/wall_builder.hpp"
@@ -111,11 +112,41 @@ double bending(const Wall& wall, double noise) {
 }
 
 /// The variance of `wall` [m²]: noise, as far as it is alike over half a metre; once for each side
-/// what faces are bent by, which is taken for what they are shifted by; and the drift.
-double sq_uncertainty(const WallThickness& wall, const Survey& survey, double drift) {
+/// what its pass shifts it by. That is what faces are bent by, or what sightings in different
+/// passes differ by, whichever is more: a drift within a pass bends, one between passes does not.
+double sq_uncertainty(const WallThickness& wall, const Survey& survey) {
   constexpr double kPriorBlocks = 20.0;  // how many of a wall's own outweigh those of all walls
   const double inflation = std::max(1.0, wall.scatter.inflation(survey.inflation, kPriorBlocks));
-  return inflation * wall.sq_noise + 2.0 * survey.bend * survey.bend + drift * drift;
+  return inflation * wall.sq_noise + 2.0 * std::pow(std::max(survey.bend, survey.drift), 2);
+}
+
+/// What keyframes tell of a wall.
+void judge_passes(const WallSightings& sightings, Wall& wall) {
+  const double seconds = time_between_sides(sightings);
+  if (std::isfinite(seconds)) {
+    wall.time_between = seconds;
+    wall.passes = seconds < kPassGap ? Passes::kOne : Passes::kTwo;
+  }
+}
+
+/// What is known of the map's points, before walls are made of them.
+Survey survey_of(
+    const SurveyCloud& cloud,
+    const PatchGrid& grid,
+    const std::vector<Face>& faces,
+    const MeasuredPairs& measured,
+    const Eigen::Vector3d& up) {
+  constexpr double kIndependentBlocks = 8.0;  // what is believed before anything is seen
+  Survey survey;
+  survey.up = up;
+  survey.floor = lowest_level(cloud, faces, up);
+  survey.noise = grid.noise();
+  const BlockScatter scatter = pooled_scatter(measured.walls);
+  survey.inflation = std::max(1.0, scatter.inflation(1.0, kIndependentBlocks));
+  survey.bend = std::sqrt(scatter.sq_bend());
+  survey.patch_size = grid.size();
+  survey.left_out = cloud.left_out;
+  return survey;
 }
 
 }  // namespace
@@ -126,31 +157,36 @@ std::string kind_name(WallKind kind) {
   return kNames[static_cast<std::size_t>(kind)];
 }
 
-Survey survey_walls(const io::MapCloud& map, const SurveyOptions& options) {
+std::string passes_name(Passes passes) {
+  constexpr std::array<const char*, 3> kNames{"unknown", "one", "two"};
+  return kNames[static_cast<std::size_t>(passes)];
+}
+
+Survey survey_walls(
+    const io::MapCloud& map, const SurveyOptions& options, const KeyframeSource& keyframes) {
   options.validate();
   const SurveyCloud cloud = survey_cloud(map);
   const PatchGrid grid = make_grid(cloud, options.patch_size);
   const Directions directions = find_directions(grid);
   const std::vector<Face> faces = find_faces(cloud, grid, directions, options);
   const MeasuredPairs measured = measure_pairs(cloud, faces, options);
-  Survey survey;
-  survey.up = directions.up;
-  survey.floor = lowest_level(cloud, faces, directions.up);
-  survey.noise = grid.noise();
-  constexpr double kIndependentBlocks = 8.0;  // what is believed before anything is seen
-  const BlockScatter scatter = pooled_scatter(measured.walls);
-  survey.inflation = std::max(1.0, scatter.inflation(1.0, kIndependentBlocks));
-  const double slow = scatter.slow - std::sqrt(scatter.sq_slow_error);  // what is not chance
-  survey.bend = std::sqrt(std::max(0.0, slow) / (scatter.blocks + kIndependentBlocks));
-  survey.patch_size = grid.size();
-  survey.left_out = cloud.left_out;
+  Survey survey = survey_of(cloud, grid, faces, measured, directions.up);
+  std::vector<WallSightings> sightings(measured.pairs.size());
+  if (keyframes) {
+    sightings = find_sightings(cloud, faces, measured.pairs, keyframes);
+  }
+  const PoseEvidence poses(sightings, survey.noise);
+  survey.jitter = std::sqrt(poses.sq_jitter());
+  survey.drift = std::sqrt(poses.sq_drift());
   WallBuilder builder(cloud, faces, measured.pairs, directions.up, options);
   for (std::size_t i = 0; i < measured.pairs.size(); ++i) {
     Wall wall = builder.wall(i, measured.walls[i]);
+    judge_passes(sightings[i], wall);
     const double bend = bending(wall, survey.noise);
     wall.is_bent = bend > 0.0;
-    wall.thickness_std =
-        std::sqrt(sq_uncertainty(measured.walls[i], survey, options.drift) + bend * bend);
+    wall.thickness_std = std::sqrt(
+        sq_uncertainty(measured.walls[i], survey) + bend * bend + poses.sq_shift(sightings[i][0]) +
+        poses.sq_shift(sightings[i][1]) + options.drift * options.drift);
     const bool is_body = wall.kind == WallKind::kColumn || wall.kind == WallKind::kFurniture;
     (is_body ? survey.bodies : survey.walls).push_back(std::move(wall));
   }

@@ -10,6 +10,7 @@
 
 #include "eval/walls/oriented_plane.hpp"
 #include "io/result/map_cloud.hpp"
+#include "survey/sightings.hpp"
 #include "survey/survey_options.hpp"
 
 namespace nvm::survey {
@@ -44,6 +45,16 @@ enum class WallKind {
 /// The name of `kind` in files: "wall", "partition", ...
 std::string kind_name(WallKind kind);
 
+/// Whether the sensor saw both sides of a wall in one go.
+enum class Passes {
+  kUnknown,  ///< without keyframes, or when they do not show a side
+  kOne,      ///< it went from one side to the other within 10 s
+  kTwo,
+};
+
+/// The name of `passes` in files: "unknown", "one", "two".
+std::string passes_name(Passes passes);
+
 /// A region within a wall's outline that neither side shows.
 struct Opening {
   std::string kind;    ///< "door" from the floor, "passage" over all the height, "window", or "gap"
@@ -62,6 +73,8 @@ struct Wall {
   double area = 0.0;     ///< seen from both sides [m²]
   double length = 0.0;   ///< level extent of what was seen from both sides [m]
   double height = 0.0;   ///< the other extent [m]
+  Passes passes = Passes::kUnknown;
+  double time_between = 0.0;  ///< sightings of one side and the other, at least [s]; 0 if unknown
   std::array<SurveyFace, 2> faces;
   std::vector<Opening> openings;
 };
@@ -76,6 +89,8 @@ struct Survey {
   double noise = 0.0;        ///< of the points on their faces, about [m]
   double inflation = 1.0;    ///< variance of a mean over what independent points would give
   double bend = 0.0;         ///< of faces beyond the noise, RMS over half a metre [m]
+  double jitter = 0.0;       ///< standard deviation of a keyframe's pose [m]; 0 without keyframes
+  double drift = 0.0;        ///< and of what all keyframes of a pass share [m]
   double patch_size = 0.0;   ///< that faces were grown with [m]
   std::size_t left_out = 0;  ///< points without position or normal, or far from all others
 };
@@ -84,9 +99,13 @@ struct Survey {
 /// across gaps, and paired back to back where both sides were seen. Deterministic. Throws
 /// std::invalid_argument for bad options and when no point has a normal.
 ///
-/// `thickness_std` holds what the map itself can tell: noise that is alike over up to half a metre.
-/// An error that all points of one side share, as a drift between two passes, leaves no trace in
-/// the map; options.drift adds it.
-Survey survey_walls(const io::MapCloud& map, const SurveyOptions& options);
+/// `thickness_std` holds what the map itself can tell: noise, and what faces are bent by. An error
+/// that all points of one side share, as a drift between two passes, leaves no trace in the map;
+/// `keyframes` of the run that made it tell of it, and which sides were seen in one pass.
+/// options.drift adds what else is known of it.
+Survey survey_walls(
+    const io::MapCloud& map,
+    const SurveyOptions& options,
+    const KeyframeSource& keyframes = nullptr);
 
 }  // namespace nvm::survey

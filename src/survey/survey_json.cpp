@@ -45,6 +45,8 @@ json wall_of(const Wall& wall) {
   result["thickness_std"] = wall.thickness_std;
   result["kind"] = kind_name(wall.kind);
   result["bent"] = wall.is_bent;
+  result["passes"] = passes_name(wall.passes);
+  result["time_between"] = wall.passes == Passes::kUnknown ? json() : json(wall.time_between);
   result["angle_deg"] = kDegrees * wall.angle;
   result["area"] = wall.area;
   result["length"] = wall.length;
@@ -85,6 +87,8 @@ std::string survey_json(const Survey& survey) {
   result["noise"] = survey.noise;
   result["inflation"] = survey.inflation;
   result["bend"] = survey.bend;
+  result["jitter"] = survey.jitter;
+  result["drift"] = survey.drift;
   result["patch_size"] = survey.patch_size;
   result["left_out"] = survey.left_out;
   return result.dump(1) + "\n";

@@ -24,6 +24,7 @@ std::vector<std::string> row_of(const std::string& name, const Wall& wall) {
       kind_name(wall.kind),
       fmt::format("{:.1f}", kMillimetres * wall.thickness),
       fmt::format("{:.1f}", 1.96 * kMillimetres * wall.thickness_std),
+      passes_name(wall.passes),
       fmt::format("{:.2f}", kDegrees * wall.angle),
       fmt::format("{:.2f}", wall.length),
       fmt::format("{:.2f}", wall.height),
@@ -48,11 +49,12 @@ std::string csv_row(const std::string& name, const Wall& wall) {
   const Eigen::Vector3d center =
       0.5 * (middle(wall.faces[0].polygon) + middle(wall.faces[1].polygon));
   std::string row = fmt::format(
-      "{},{},{:.6f},{:.6f},{:.4f},{:.3f},{:.3f},{:.3f},{:.4f},{:.4f},{:.4f},{}",
+      "{},{},{:.6f},{:.6f},{},{:.4f},{:.3f},{:.3f},{:.3f},{:.4f},{:.4f},{:.4f},{}",
       name,
       kind_name(wall.kind),
       wall.thickness,
       wall.thickness_std,
+      passes_name(wall.passes),
       kDegrees * wall.angle,
       wall.length,
       wall.height,
@@ -101,6 +103,7 @@ std::vector<std::string> table_header() {
       "kind",
       "thickness [mm]",
       "± 95 % [mm]",
+      "passes",
       "angle [°]",
       "length [m]",
       "height [m]",
@@ -141,7 +144,7 @@ std::string screen_table(const Survey& survey) {
 
 std::string survey_csv(const Survey& survey) {
   std::string text =
-      "wall,kind,thickness,thickness_std,angle_deg,length,height,area,x,y,z,openings";
+      "wall,kind,thickness,thickness_std,passes,angle_deg,length,height,area,x,y,z,openings";
   for (const int side : {1, 2}) {
     text += fmt::format(",nx{0},ny{0},nz{0},d{0},points{0},rms{0},bow{0}", side);
   }

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The nvm authors
 #include "survey/wall_thickness.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -50,35 +51,74 @@ std::map<int, eval::SidedPoints> split(
   return pieces;
 }
 
-/// Adds what the residuals of one fitted face tell. Three of its degrees of freedom went into the
-/// plane, which lowers the sums over blocks as it lowers those over points.
-void add_scatter(const eval::FaceFit& fit, const PlaneFrame& frame, BlockScatter& scatter) {
-  std::map<std::pair<int, int>, std::pair<double, double>> blocks;
-  for (const Eigen::Vector3d& p : fit.points) {
-    auto& [sum, count] = blocks[{
-        static_cast<int>(std::floor(frame.coordinate_u(p) / kBlock)),
-        static_cast<int>(std::floor(frame.coordinate_v(p) / kBlock))}];
-    sum += fit.plane.distance(p);
-    count += 1.0;
+/// What half a metre of a face holds: sums over its points.
+struct Block {
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< of (1, u, v)
+  double distance = 0.0;                            ///< to a plane [m]
+  double sq_distance = 0.0;
+};
+
+/// One side of a wall, all its pieces, as blocks.
+class SideBlocks {
+ public:
+  SideBlocks(
+      const std::vector<Eigen::Vector3d>& points,
+      const PlaneFrame& frame,
+      const eval::OrientedPlane& plane) {
+    for (const Eigen::Vector3d& p : points) {
+      const Eigen::Vector3d place(1.0, frame.coordinate_u(p), frame.coordinate_v(p));
+      Block& block = blocks_[{
+          static_cast<int>(std::floor(place[1] / kBlock)),
+          static_cast<int>(std::floor(place[2] / kBlock))}];
+      const double distance = plane.distance(p);
+      block.place += place;
+      block.distance += distance;
+      block.sq_distance += distance * distance;
+      moments_ += place * place.transpose();
+      sums_ += distance * place;
+    }
+    points_ = static_cast<double>(points.size());
   }
-  const double freedom = static_cast<double>(blocks.size()) - 3.0;
-  if (freedom < 1.0 || !(fit.spread > 0.0)) {
-    return;
+
+  /// Adds what the blocks differ by from the plane of least squares. That plane takes a share of
+  /// each block: its leverage, which is small in the middle of a face and large at its corners.
+  void add_to(BlockScatter& scatter) const {
+    constexpr std::size_t kMinBlocks = 4;
+    const Eigen::LDLT<Eigen::Matrix3d> solver(moments_);
+    const double sq_noise = within();
+    if (blocks_.size() < kMinBlocks || !solver.isPositive() || !(sq_noise > 0.0)) {
+      return;
+    }
+    const Eigen::Vector3d shift = solver.solve(sums_);
+    for (const auto& [index, block] : blocks_) {
+      const double count = block.place[0];
+      const double residual = block.distance - shift.dot(block.place);
+      const double free = 1.0 - block.place.dot(solver.solve(block.place)) / count;
+      scatter.found += residual * residual / (sq_noise * points_);
+      scatter.expected += free * count / points_;
+      scatter.slow += residual * residual / count - free * sq_noise;
+      scatter.slow_weight += free * count;
+      scatter.sq_slow_error += 2.0 * std::pow(free * sq_noise, 2);
+    }
+    scatter.blocks += static_cast<double>(blocks_.size()) - 3.0;
   }
-  const auto points = static_cast<double>(fit.points.size());
-  const double sq_noise = fit.spread * fit.spread * points / std::max(points - 3.0, 1.0);
-  const double share = freedom / static_cast<double>(blocks.size());
-  double slow = 0.0;
-  for (const auto& [index, block] : blocks) {
-    const auto& [sum, count] = block;
-    scatter.found += sum * sum / (sq_noise * points);
-    slow += sum * sum / (count * count) - share * sq_noise / count;
-    scatter.sq_slow_error += 2.0 * std::pow(share * sq_noise / count, 2);
+
+ private:
+  /// Variance of the points within their blocks [m²]; 0 when nothing tells.
+  double within() const {
+    double sum = 0.0;
+    for (const auto& [index, block] : blocks_) {
+      sum += block.sq_distance - block.distance * block.distance / block.place[0];
+    }
+    const double freedom = points_ - static_cast<double>(blocks_.size());
+    return freedom > 0.0 ? sum / freedom : 0.0;
   }
-  scatter.expected += share;
-  scatter.blocks += freedom;
-  scatter.slow += slow;
-}
+
+  std::map<std::pair<int, int>, Block> blocks_;
+  Eigen::Matrix3d moments_ = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d sums_ = Eigen::Vector3d::Zero();
+  double points_ = 0.0;
+};
 
 double sq_standard_error(const eval::FaceFit& fit) {
   const auto points = static_cast<double>(fit.points.size());
@@ -87,7 +127,7 @@ double sq_standard_error(const eval::FaceFit& fit) {
 
 void add_piece(
     const eval::Thickness& piece,
-    const PlaneFrame& frame,
+    eval::SidedPoints& used,
     double& weight_sum,
     WallThickness& wall) {
   double weight = 0.0;
@@ -99,7 +139,7 @@ void add_piece(
     sq_noise += sq_standard_error(fit);
     wall.points[side] += fit.points.size();
     wall.rms[side] += fit.spread * fit.spread * points;
-    add_scatter(fit, frame, wall.scatter);
+    used[side].insert(used[side].end(), fit.points.begin(), fit.points.end());
   }
   weight_sum += weight;
   wall.value += weight * piece.value;
@@ -113,6 +153,7 @@ BlockScatter& BlockScatter::operator+=(const BlockScatter& other) {
   found += other.found;
   blocks += other.blocks;
   slow += other.slow;
+  slow_weight += other.slow_weight;
   sq_slow_error += other.sq_slow_error;
   return *this;
 }
@@ -122,16 +163,24 @@ double BlockScatter::inflation(double prior, double prior_blocks) const {
   return (own * blocks + prior * prior_blocks) / std::max(blocks + prior_blocks, 1.0);
 }
 
+double BlockScatter::sq_bend() const {
+  // Shifts of whole sides are far less than chance makes of blocks: half of one deviation of chance
+  // would outweigh all noise of a wall.
+  const double chance = 2.0 * std::sqrt(sq_slow_error);
+  return slow > chance ? (slow - chance) / slow_weight : 0.0;
+}
+
 std::optional<WallThickness> measure_wall(
     const SurveyCloud& cloud, const std::vector<Face>& faces, const FacePair& pair) {
   const Face& first = faces[pair.first];
   const Face& second = faces[pair.second];
   WallThickness wall;
   double weight_sum = 0.0;
+  eval::SidedPoints used;
   for (const auto& [index, points] : split(cloud, faces, pair)) {
     const auto piece = eval::measure_thickness(points, {first.plane, second.plane}, {});
     if (piece) {
-      add_piece(*piece, first.frame, weight_sum, wall);
+      add_piece(*piece, used, weight_sum, wall);
     }
   }
   if (weight_sum == 0.0) {
@@ -140,6 +189,8 @@ std::optional<WallThickness> measure_wall(
   wall.value /= weight_sum;
   wall.sq_noise /= weight_sum * weight_sum;
   for (std::size_t side = 0; side < 2; ++side) {
+    SideBlocks(used[side], first.frame, faces[side == 0 ? pair.first : pair.second].plane)
+        .add_to(wall.scatter);
     wall.rms[side] = std::sqrt(wall.rms[side] / static_cast<double>(wall.points[side]));
   }
   return wall;

@@ -19,13 +19,17 @@ struct BlockScatter {
   double expected = 0.0;
   double found = 0.0;
   double blocks = 0.0;  ///< degrees of freedom of `found`
-  double slow = 0.0;    ///< variance of the blocks' means beyond the noise, times `blocks` [m²]
+  double slow = 0.0;  ///< variance of the blocks' means beyond the noise, times `slow_weight` [m²]
+  double slow_weight = 0.0;    ///< points of the blocks, as far as no plane was fitted to them
   double sq_slow_error = 0.0;  ///< variance of `slow` by chance [m⁴]
 
   BlockScatter& operator+=(const BlockScatter& other);
 
   /// found / expected, drawn towards `prior` as if that came from `prior_blocks` more blocks.
   double inflation(double prior, double prior_blocks) const;
+
+  /// Variance of the blocks' means beyond the noise, and beyond what chance makes of it [m²].
+  double sq_bend() const;
 };
 
 /// The thickness of a wall, measured where both faces are seen.

@@ -67,7 +67,8 @@ void score_plan(std::mt19937_64& random, double noise, Score& score) {
   }
 }
 
-// Recall and precision of 99 %, and 95 % intervals that hold 93 to 97 % of the time.
+// Recall and precision of 99 %, and 95 % intervals that hold 95 % of the time, within what chance
+// makes of this number of walls; docs/walls.md has more of them.
 TEST(FloorPlans, EveryWallIsFoundOnceAndAsThickAsTheIntervalSays) {
   auto random = test::rng();
   Score score;
@@ -79,10 +80,10 @@ TEST(FloorPlans, EveryWallIsFoundOnceAndAsThickAsTheIntervalSays) {
   ASSERT_GT(score.planned, 200);
   EXPECT_GE(score.right, 0.99 * score.planned) << score.missed;
   EXPECT_LE(score.found, 1.01 * score.planned);
-  EXPECT_GE(score.covered, 0.93 * score.right) << score.right;
+  EXPECT_GE(score.covered, 0.92 * score.right) << score.right;
   RecordProperty("covered", score.covered);
   RecordProperty("right", score.right);
-  EXPECT_LE(score.covered, 0.97 * score.right) << score.right;
+  EXPECT_LE(score.covered, 0.98 * score.right) << score.right;
   EXPECT_LT(score.worst, 0.5);
 }
 

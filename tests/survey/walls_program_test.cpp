@@ -8,6 +8,7 @@
 
 #include "app/program_fixture.hpp"
 #include "io/result/map_cloud.hpp"
+#include "io/result/session_file.hpp"
 #include "io/result/tile_store.hpp"
 #include "nvm/map/serialization.hpp"
 #include "nvm/map/voxel_map.hpp"
@@ -134,6 +135,52 @@ TEST_F(WallsProgramTest, AStoreOfTilesIsOneMap) {
   ASSERT_EQ(list["walls"].size(), 1U);
   EXPECT_NEAR(list["walls"][0]["thickness"].get<double>(), 0.05, 0.001);
   EXPECT_NEAR(list["walls"][0]["length"].get<double>(), 4.0, 0.05);
+}
+
+/// A keyframe of one side of the wall of map.ply, from 2 m before it.
+io::Keyframe keyframe_of(const io::MapCloud& cloud, double side, double time) {
+  io::Keyframe keyframe;
+  keyframe.time = time;
+  keyframe.T_map_lidar.translation() << 2.0, 2.0 * side, 1.0;
+  for (std::size_t i = 0; i < cloud.positions.size(); i += 3) {
+    if (cloud.normals[i].y() * side > 0.5) {
+      keyframe.points.push_back(
+          (cloud.positions[i] - keyframe.T_map_lidar.translation()).cast<float>());
+      keyframe.normals.push_back(cloud.normals[i]);
+    }
+  }
+  return keyframe;
+}
+
+TEST_F(WallsProgramTest, TheKeyframesOfARunTellOfPasses) {
+  const io::MapCloud cloud = io::read_map_cloud(path("walls/map.ply"));
+  MapOptions options;
+  options.min_point_distance = 0.0;
+  VoxelMap map(options);
+  map.insert(cloud.positions, cloud.normals);
+  save_map(map, path("walls/map.nvm"));
+  {
+    io::SessionWriter writer(path("walls/session.nvms"));
+    writer.add(keyframe_of(cloud, -1.0, 10.0));
+    writer.add(keyframe_of(cloud, 1.0, 14.0));
+    writer.finish(io::stamp_of(path("walls/map.nvm")));
+  }
+  const test::Outcome outcome = nvm("walls " + path("walls") + " --out " + path("out"));
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  const auto wall = nlohmann::json::parse(test::text_of(path("out/walls.json")))["walls"][0];
+  EXPECT_EQ(wall["passes"], "one");
+  EXPECT_NEAR(wall["time_between"].get<double>(), 4.0, 1e-9);
+  EXPECT_THAT(test::text_of(path("out/walls.csv")), HasSubstr(",one,"));
+  EXPECT_THAT(test::text_of(path("out/walls.html")), HasSubstr("<td>one</td>"));
+
+  map.insert(cloud.positions, cloud.normals);
+  save_map(map, path("walls/map.nvm"));
+  const test::Outcome other = nvm("walls " + path("walls/map.nvm") + " --out " + path("out"));
+  ASSERT_EQ(other.status, 0) << other.errors;
+  EXPECT_THAT(other.errors, HasSubstr("is of another map"));
+  const auto list = nlohmann::json::parse(test::text_of(path("out/walls.json")));
+  EXPECT_EQ(list["walls"][0]["passes"], "unknown");
+  EXPECT_TRUE(list["walls"][0]["time_between"].is_null());
 }
 
 TEST_F(WallsProgramTest, ADamagedStoreIsRefused) {
