@@ -87,6 +87,18 @@ def plot(arguments) -> None:
         print(path)
 
 
+def ifc(arguments) -> None:
+    """Writes walls as IFC."""
+    from .ifc import write_ifc
+
+    out = arguments.out or os.path.splitext(arguments.walls)[0] + ".ifc"
+    try:
+        written = write_ifc(arguments.walls, out)
+    except ImportError as error:
+        raise RuntimeError("IFC takes ifcopenshell: pip install 'nvm[ifc]'") from error
+    print(f"{out}: " + ", ".join(f"{count} {name}" for name, count in written.items()))
+
+
 def evaluate(argv: list[str]) -> int:
     """Runs the program, and draws what it found."""
     from .program import run_program
@@ -152,6 +164,10 @@ def parser() -> argparse.ArgumentParser:
     command.add_argument("--out", metavar="FOLDER", help="of the pictures; default: plots beside them")
     command.add_argument("--truth", metavar="FILE", help="TUM file, for the errors")
     command.set_defaults(run=plot)
+    command = commands.add_parser("ifc", help="write the walls that nvm walls has found as IFC")
+    command.add_argument("walls", help="a walls.json")
+    command.add_argument("--out", metavar="FILE", help="default: beside it, with .ifc")
+    command.set_defaults(run=ifc)
     for name, text in PROGRAM_COMMANDS.items():  # main() hands them over, with all their options
         commands.add_parser(name, help=text, add_help=False)
     return top

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <Eigen/Geometry>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <stdexcept>
@@ -21,6 +23,7 @@
 #include "nvm/map/serialization.hpp"
 #include "nvm/map/sighting.hpp"
 #include "survey/keyframes_beside.hpp"
+#include "survey/plan.hpp"
 #include "survey/survey.hpp"
 #include "survey/survey_files.hpp"
 #include "survey/survey_table.hpp"
@@ -79,6 +82,46 @@ void print_summary(const survey::Survey& found, const std::string& folder) {
   fmt::print("{0}/walls.html, {0}/walls.json, {0}/plan.dxf\n", folder);
 }
 
+/// The extent of `cloud` over the number of points along it, as if it were one surface [m].
+double spacing_of(const io::MapCloud& cloud) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : cloud.positions) {
+    if (p.allFinite()) {
+      box.extend(p);
+    }
+  }
+  return box.isEmpty()
+             ? 0.0
+             : box.diagonal().norm() / std::sqrt(static_cast<double>(cloud.positions.size()));
+}
+
+void refuse_nothing(const WallsArguments& arguments, const io::MapCloud& cloud) {
+  constexpr double kFarApart = 5.0;  // [m]
+  const double spacing = spacing_of(cloud);
+  throw std::runtime_error(fmt::format(
+      "{}: no plane of {} m² among {} points; {}",
+      arguments.map,
+      arguments.options.min_area,
+      cloud.positions.size(),
+      spacing > kFarApart
+          ? fmt::format("they lie about {:.0f} m apart: are they in millimetres?", spacing)
+          : "a map of more scans, or --min-area, may have some"));
+}
+
+void say_notes(const survey::Survey& found, const io::MapCloud& cloud, double plan_height) {
+  if (found.left_out > 0) {
+    say(fmt::format(
+        "note: {} of {} points were left out: without a position, without a normal, or far from "
+        "all others",
+        found.left_out,
+        cloud.positions.size()));
+  }
+  const survey::Plan plan = survey::make_plan(found, plan_height);
+  if (plan.walls.empty() && plan.faces.empty()) {
+    say(fmt::format("note: the plan is empty: nothing is {} m above the floor", plan_height));
+  }
+}
+
 void list_walls(const WallsArguments& arguments) {
   arguments.options.validate();
   const std::string map = map_in(arguments.map);
@@ -90,20 +133,10 @@ void list_walls(const WallsArguments& arguments) {
       throw std::runtime_error(arguments.map + ": " + error.what());
     }
   });
-  if (found.left_out > 0) {
-    say(fmt::format(
-        "note: {} of {} points were left out: without a position, without a normal, or far from "
-        "all others",
-        found.left_out,
-        cloud.positions.size()));
-  }
   if (found.walls.empty() && found.bodies.empty() && found.faces.empty()) {
-    throw std::runtime_error(fmt::format(
-        "{}: no plane of {} m² among {} points; a map of more scans, or --min-area, may have some",
-        arguments.map,
-        arguments.options.min_area,
-        cloud.positions.size()));
+    refuse_nothing(arguments, cloud);
   }
+  say_notes(found, cloud, arguments.options.plan_height);
   const Interruption interruption;
   doing("writing " + arguments.folder, [&] {
     survey::write_survey(found, arguments.options.plan_height, arguments.folder);

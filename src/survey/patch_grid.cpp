@@ -84,8 +84,8 @@ SurveyCloud survey_cloud(const io::MapCloud& cloud) {
   if (result.positions.empty()) {
     throw std::invalid_argument(
         "none of the " + std::to_string(cloud.positions.size()) +
-        " points has a normal, which tells the two faces of a wall apart; make the map with "
-        "`nvm run` or `nvm map`, with map.type=nvm");
+        " points has a position and a normal, which tells the two faces of a wall apart; make the "
+        "map with `nvm run` or `nvm map`, with map.type=nvm");
   }
   return result;
 }

@@ -204,6 +204,20 @@ TEST_F(WallsProgramTest, ADamagedStoreIsRefused) {
   expect_failure(walls, "index.json: is missing");
 }
 
+TEST_F(WallsProgramTest, MillimetresAndAnEmptyPlanAreNamed) {
+  io::MapCloud cloud = io::read_map_cloud(path("walls/map.ply"));
+  const test::Outcome outcome =
+      nvm("walls " + path("walls/map.ply") + " --height 50 --out " + path("out"));
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  EXPECT_THAT(outcome.errors, HasSubstr("the plan is empty"));
+  for (Eigen::Vector3d& p : cloud.positions) {
+    p *= 1000.0;
+  }
+  io::write_map_cloud(path("walls/mm.ply"), cloud);
+  std::filesystem::remove_all(path("out"));
+  expect_failure("walls " + path("walls/mm.ply") + " --out " + path("out"), "millimetres");
+}
+
 TEST_F(WallsProgramTest, BadInputGivesOneLineAndLeavesNothing) {
   expect_failure("walls " + path("walls/bare.pcd") + " --out " + path("out"), "normal");
   expect_failure("walls " + path("nowhere.ply") + " --out " + path("out"), "nowhere.ply");
