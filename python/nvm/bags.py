@@ -15,12 +15,12 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from .imu import IMU, imu_cdr_to_ros1
 from .livox import FIELDS as LIVOX_FIELDS
 from .livox import is_livox, livox_cdr_to_ros1, register_livox
 from .transforms import TransformTree
 
 CLOUD = "sensor_msgs/msg/PointCloud2"
-IMU = "sensor_msgs/msg/Imu"
 TRANSFORMS = "tf2_msgs/msg/TFMessage"
 TIME_FIELDS = ("time", "t", "timestamp", "offset_time", "time_stamp")
 SCALARS = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 8: "f8"}
@@ -66,7 +66,7 @@ class Message:
     topic: str
     type: str  # as ROS 1 writes it: sensor_msgs/Imu
     record_time: float  # [s]
-    data: bytes  # as ROS 1 serialises it
+    data: bytes | memoryview  # as ROS 1 serialises it
 
 
 def is_bag(path: str | pathlib.Path) -> bool:
@@ -186,12 +186,13 @@ class Recording:
         connections = [c for c in self._reader.connections if accepts(c)]
         return self._reader.messages(connections=connections) if connections else iter(())
 
-    def _as_ros1(self, raw, kind: str) -> bytes:
+    def _as_ros1(self, raw, kind: str) -> bytes | memoryview:
         if not self._reader.is2:
-            return bytes(raw)
+            return raw
         if is_livox(kind):
             return livox_cdr_to_ros1(raw)
-        return bytes(self._reader.typestore.cdr_to_ros1(raw, kind))
+        short = imu_cdr_to_ros1(raw) if kind == IMU else None
+        return short or self._reader.typestore.cdr_to_ros1(raw, kind)
 
     def _topic(self, name: str, kind: str, count: int) -> Topic:
         rate = (count - 1) / self.duration if count > 1 and self.duration > 0 else 0.0

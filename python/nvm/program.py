@@ -24,6 +24,7 @@ from .choice import Choice, choose
 
 END = 0xFFFFFFFF  # in the place of a topic
 PIPE_SIZE = 1 << 20  # [bytes]
+BUFFER_SIZE = 1 << 16  # [bytes], which joins messages of IMUs and leaves clouds where they are
 
 
 def find_program(command: str = "") -> str:
@@ -142,7 +143,7 @@ def write_messages(descriptor: int, recording: Recording, choice: Choice) -> str
     }
     places = {(t["name"], t["type"]): i for i, t in enumerate(head["topics"])}
     try:
-        with os.fdopen(descriptor, "wb", buffering=PIPE_SIZE) as pipe:
+        with os.fdopen(descriptor, "wb", buffering=BUFFER_SIZE) as pipe:
             pipe.write(json.dumps(head).encode() + b"\n")
             for message in read_ahead(recording, [t.name for t in topics]):
                 if (message.topic, message.type) in places:

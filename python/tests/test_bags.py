@@ -10,6 +10,7 @@ from recordings import CLOUD, FORMATS, IMU, LIVOX, TF, livox_records, records, t
 
 from nvm.bags import BagError, Recording, is_bag
 from nvm.choice import choose
+from nvm.imu import imu_cdr_to_ros1
 from nvm.livox import livox_cdr_to_ros1
 from nvm.transforms import quaternion, rotation
 
@@ -153,6 +154,22 @@ def test_livox_is_translated_as_rosbags_does(rng, frame):
     for size in (3, 10, 40, len(raw) - 5):
         with pytest.raises((ValueError, IndexError)):
             livox_cdr_to_ros1(bytes(raw)[:size])
+
+
+@pytest.mark.parametrize("frame", ["", "a", "imu_link", "a frame of any length"])
+def test_an_imu_is_translated_as_rosbags_does(rng, frame):
+    from recordings import Messages
+
+    store = typestore(ros1=False)
+    message = Messages(store).imu(3.25, rng.normal(size=3), rng.normal(size=3), frame)
+    message.orientation_covariance = rng.normal(size=9)
+    message.linear_acceleration_covariance = rng.normal(size=9)
+    raw = bytes(store.serialize_cdr(message, IMU))
+    assert imu_cdr_to_ros1(raw) == imu_cdr_to_ros1(memoryview(raw)) == bytes(store.cdr_to_ros1(raw, IMU))
+    assert imu_cdr_to_ros1(store.serialize_cdr(message, IMU, little_endian=False)) is None
+    for size in (4, 10, 40, len(raw) - 1):
+        with pytest.raises(ValueError):
+            imu_cdr_to_ros1(raw[:size])
 
 
 def test_rotations_and_quaternions_agree(rng):
