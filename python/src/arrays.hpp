@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstring>
 #include <initializer_list>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -99,6 +100,14 @@ Array<T> to_array(std::vector<T> values, std::size_t columns = 0) {
     return Array<T>(kept->data(), {kept->size()}, owner);
   }
   return Array<T>(kept->data(), {kept->size() / columns, columns}, owner);
+}
+
+/// An array of `rows` that owns `values`, `columns` in a row; 0: of one dimension.
+template <class T>
+Array<T> to_array(std::unique_ptr<T[]> values, std::size_t rows, std::size_t columns = 0) {
+  T* const kept = values.release();
+  const nb::capsule owner(kept, [](void* p) noexcept { delete[] static_cast<T*>(p); });
+  return columns == 0 ? Array<T>(kept, {rows}, owner) : Array<T>(kept, {rows, columns}, owner);
 }
 
 /// The array (N, 3) of 3-vectors.

@@ -4,14 +4,12 @@
 #include <nanobind/stl/string.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "arrays.hpp"
+#include "batch_query.hpp"
 #include "bind.hpp"
 #include "nvm/map/serialization.hpp"
 #include "options.hpp"
@@ -34,60 +32,6 @@ InsertStats insert(SharedMap& self, nb::handle points, nb::handle normals, nb::h
   const Vectors directions(normals, "normals");
   require_same_size(directions.size(), "normals", positions.size(), "points");
   return self.write([&](VoxelMap& map) { return map.insert(positions, directions, pose); });
-}
-
-/// The answers of a batch of queries, `count` places for each; empty places lie at infinity.
-struct Answers {
-  std::vector<double> distances;
-  std::vector<std::int64_t> rows;
-  std::vector<std::int64_t> counts;
-};
-
-/// Answers the queries from `begin` to `end`.
-void answer_block(
-    const VoxelMap& map,
-    const std::vector<std::uint32_t>& rows,
-    const Vectors& points,
-    const Vectors* normals,
-    const NearestSearch& search,
-    std::size_t begin,
-    std::size_t end,
-    Answers& answers) {
-  VoxelMap::QueryContext context;
-  std::array<Neighbor, kMaxNeighbors> found;
-  for (std::size_t i = begin; i < end; ++i) {
-    const std::size_t count =
-        normals != nullptr
-            ? map.nearest(points[i], (*normals)[i].cast<float>(), search, found.data(), context)
-            : map.nearest(points[i], search, found.data(), context);
-    answers.counts[i] = static_cast<std::int64_t>(count);
-    for (std::size_t j = 0; j < count; ++j) {
-      answers.distances[i * search.count + j] =
-          std::sqrt(static_cast<double>(found[j].sq_distance));
-      answers.rows[i * search.count + j] = rows[found[j].id];
-    }
-  }
-}
-
-Answers answer(
-    const SharedMap& self,
-    const Vectors& points,
-    const Vectors* normals,
-    const NearestSearch& search,
-    const Executor& executor) {
-  constexpr std::size_t kBlock = 512;
-  return self.read([&](const VoxelMap& map) {
-    const std::size_t places = points.size() * search.count;
-    Answers answers{
-        std::vector<double>(places, std::numeric_limits<double>::infinity()),
-        std::vector<std::int64_t>(places, static_cast<std::int64_t>(map.size())),
-        std::vector<std::int64_t>(points.size())};
-    const auto rows = self.rows(map);
-    executor.for_blocks(points.size(), kBlock, [&](std::size_t begin, std::size_t end) {
-      answer_block(map, *rows, points, normals, search, begin, end, answers);
-    });
-    return answers;
-  });
 }
 
 nb::tuple nearest(
@@ -113,9 +57,9 @@ nb::tuple nearest(
       {k, max_distance},
       make_executor(threads, positions.size(), kWorthThreads));
   return nb::make_tuple(
-      to_array(std::move(answers.distances), k),
-      to_array(std::move(answers.rows), k),
-      to_array(std::move(answers.counts)));
+      to_array(std::move(answers.distances), positions.size(), k),
+      to_array(std::move(answers.rows), positions.size(), k),
+      to_array(std::move(answers.counts), positions.size()));
 }
 
 Array<std::int64_t> within(const SharedMap& self, nb::handle center, double radius) {
