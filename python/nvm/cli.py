@@ -184,6 +184,8 @@ def main(argv: list[str] | None = None) -> int:
             return ours.get(argv[0], run_program)(argv)
         arguments = parser().parse_args(argv)
         arguments.run(arguments)
+    except KeyboardInterrupt:
+        return 130
     except (BagError, ValueError, RuntimeError, OSError) as error:
         message = str(error)
         print(message if message.startswith("nvm: ") else f"nvm: {message}", file=sys.stderr)

@@ -10,19 +10,9 @@ import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 
-from .results import Cloud, ResultError, Results, Trajectory
+from .results import SIDE_COLORS, STAGES, Cloud, ResultError, Results, Trajectory, thinned
 
-SIDE_COLORS = ("#1f77b4", "#ff7f0e")  # front, back
-STAGES = ("deskew", "normals", "optimize", "map_update")
-MAX_DRAWN = 300_000  # points
 SLICE = 0.05  # half a slice's thickness [m]
-
-
-def thinned(cloud: Cloud, keep=None) -> Cloud:
-    """At most MAX_DRAWN points, evenly, of those where `keep` holds."""
-    rows = np.flatnonzero(keep) if keep is not None else np.arange(len(cloud.sides))
-    rows = rows[:: max(1, -(-len(rows) // MAX_DRAWN))]
-    return Cloud(cloud.positions[rows], cloud.normals[rows], cloud.sides[rows])
 
 
 def draw_sides(axes, cloud: Cloud, columns, size=0.5) -> None:

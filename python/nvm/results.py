@@ -13,6 +13,9 @@ import numpy as np
 from . import load
 
 TEXTS = ("status", "why", "unobserved")  # columns of frames.csv
+SIDE_COLORS = ("#1f77b4", "#ff7f0e")  # front, back
+STAGES = ("deskew", "normals", "optimize", "map_update")
+MAX_DRAWN = 300_000  # points
 
 
 class ResultError(RuntimeError):
@@ -98,3 +101,10 @@ def read_results(path) -> Results:
     if results.trajectory is None and results.cloud is None:
         raise ResultError(f"{path}: has neither trajectory.tum nor map.nvm: give a folder of nvm run")
     return results
+
+
+def thinned(cloud: Cloud, keep=None) -> Cloud:
+    """At most MAX_DRAWN points, evenly, of those where `keep` holds."""
+    rows = np.flatnonzero(keep) if keep is not None else np.arange(len(cloud.sides))
+    rows = rows[:: max(1, -(-len(rows) // MAX_DRAWN))]
+    return Cloud(cloud.positions[rows], cloud.normals[rows], cloud.sides[rows])

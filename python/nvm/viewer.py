@@ -14,8 +14,7 @@ import time
 
 import numpy as np
 
-from .plots import SIDE_COLORS, STAGES, thinned
-from .results import Cloud, Results, read_cloud
+from .results import SIDE_COLORS, STAGES, Cloud, Results, read_cloud, thinned
 
 PATH_STEP = 1.02
 MAP_STEP = 1.1  # in points, from one map that is drawn to the next: all together hold ten times the last

@@ -77,7 +77,11 @@ Eigen::Vector3d vector_from(nb::handle object, const char* name) {
   if (numbers.size() != 3) {
     refuse(name, "must have the shape (3,)");
   }
-  return {numbers[0], numbers[1], numbers[2]};
+  const Eigen::Vector3d vector(numbers[0], numbers[1], numbers[2]);
+  if (!vector.allFinite()) {
+    refuse(name, "must be finite");
+  }
+  return vector;
 }
 
 Pose pose_from(nb::handle object, const char* name) {

@@ -78,7 +78,7 @@ class Numbers : public ArrayView {
 void require_same_size(
     std::size_t size, const char* name, std::size_t reference_size, const char* reference);
 
-/// Three numbers. Throws ValueError.
+/// Three finite numbers. Throws ValueError.
 Eigen::Vector3d vector_from(nb::handle object, const char* name);
 
 /// A pose of an array (4, 4), the identity of None. Throws ValueError unless it is finite and

@@ -3,6 +3,8 @@
 """Every command of the program that the package brings, on a walk around a wall of 0.1 m, against its truth."""
 
 import json
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -29,6 +31,22 @@ def walks(tmp_path_factory):
         write_sequence(folder / f"walk_{i}", np.random.default_rng(i))
         done("run", folder / f"walk_{i}", "--out", folder / f"run_{i}")
     return folder
+
+
+
+def test_an_interruption_is_no_traceback(monkeypatch):
+    from nvm import cli
+
+    def interrupted(_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(cli, "is_bag", interrupted)
+    assert cli.main(["info", "anything"]) == 130
+
+
+def test_the_viewer_needs_no_matplotlib():
+    code = "import sys; sys.modules['matplotlib'] = None; import nvm.viewer"
+    subprocess.run([sys.executable, "-c", code], check=True)
 
 
 def test_run_and_evaluate(walks, tmp_path):

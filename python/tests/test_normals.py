@@ -60,6 +60,8 @@ def test_bad_options_are_refused():
         nvm.estimate_normals(np.zeros((1, 3)), radius=1.0)
     with pytest.raises(ValueError, match="viewpoint"):
         nvm.estimate_normals(np.zeros((1, 3)), viewpoint=(0, 0))
+    with pytest.raises(ValueError, match="viewpoint must be finite"):
+        nvm.estimate_normals(np.zeros((1, 3)), viewpoint=(0, np.nan, 0))
 
 
 def test_a_scan_is_aligned_to_the_map(rng):
