@@ -51,9 +51,9 @@ std::optional<ImuSample> sample_at(const Samples& samples, double time, double m
   return held(time - previous.time < next->time - time ? previous : *next, time, max_gap);
 }
 
-/// Beyond what any IMU measures, in any unit: 5000 degrees per second, 500 g.
+/// Beyond what any IMU measures, in any unit: counts of 16 bits on three axes.
 bool is_implausible(const ImuSample& sample) {
-  constexpr double kMax = 5000.0;
+  constexpr double kMax = 60'000.0;
   return sample.gyro.norm() > kMax || sample.accel.norm() > kMax;
 }
 

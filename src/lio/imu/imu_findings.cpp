@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/printed.hpp"
+#include "lio/imu/is_about.hpp"
 
 namespace nvm::lio {
 
@@ -33,6 +34,62 @@ std::string rotation_finding(const TurnComparison& turns, const Pose& T_body_lid
       turns.is_about_one_axis
           ? " (the sensor turned about one axis alone: a turn about that axis is not known)"
           : "");
+}
+
+std::string mirrored_scans_finding(const Eigen::Vector3d& normal) {
+  return printed(
+      "the scans are a mirror image along (%.2f, %.2f, %.2f): gyroscope and accelerometer agree "
+      "with "
+      "them that way only; the scans alone are used, and poses and map are mirrored. Turn that "
+      "axis "
+      "of the points round in the LiDAR's driver",
+      std::abs(normal.x()),
+      std::abs(normal.y()),
+      std::abs(normal.z()));
+}
+
+std::string left_handed_finding(const Eigen::Matrix3d& reflection) {
+  constexpr const char* kNames = "xyz";
+  std::string axes;
+  for (int row = 0; row < 3; ++row) {
+    Eigen::Index column = 0;
+    reflection.row(row).cwiseAbs().maxCoeff(&column);
+    axes += row > 0 ? ", " : "";
+    axes += reflection(row, column) < 0.0 ? "-" : "";
+    axes += kNames[column];
+  }
+  return "the gyroscope turns as the scans do only if its axes are taken as (" + axes +
+         "), which are left-handed: its driver turns one round, or swaps two; the scans alone are "
+         "used. Mend the driver";
+}
+
+std::string gyro_unit_finding(double times, double scale) {
+  const char* unit = "a unit of its own";
+  if (is_about(times, 57.3, 0.2)) {
+    unit = "degrees per second";
+  } else if (is_about(times, 1000.0, 0.2)) {
+    unit = "milliradians per second";
+  }
+  return printed(
+      "the gyroscope turns %.3g times as fast as the scans, so it measures in %s: multiplied by "
+      "%.6g (imu.gyro_scale sets another factor)",
+      times,
+      unit,
+      scale);
+}
+
+std::string accel_unit_finding(double force, double scale) {
+  if (is_about(force, 1.0, 0.5)) {
+    return printed(
+        "the accelerometer measures in g, for it reads 1 where gravity is felt: multiplied by "
+        "%.6g (imu.accel_scale sets another factor)",
+        scale);
+  }
+  return printed(
+      "the accelerometer reads %.4g where gravity is felt, in a unit of its own (milli-g, cm/s^2, "
+      "counts): multiplied by %.4g (imu.accel_scale sets another factor)",
+      force,
+      scale);
 }
 
 std::string offset_finding(double offset) {

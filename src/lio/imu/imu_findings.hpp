@@ -17,6 +17,18 @@ namespace nvm::lio {
 /// `T_body_lidar` is the extrinsic that the poses take for granted.
 std::string rotation_finding(const TurnComparison& turns, const Pose& T_body_lidar);
 
+/// Of scans that are a mirror image; `normal` of the mirror, body frame.
+std::string mirrored_scans_finding(const Eigen::Vector3d& normal);
+
+/// Of a gyroscope that turns as the scans do once its readings are multiplied by `reflection`.
+std::string left_handed_finding(const Eigen::Matrix3d& reflection);
+
+/// Of a gyroscope that turns `times` as fast as the scans, and is multiplied by `scale`.
+std::string gyro_unit_finding(double times, double scale);
+
+/// Of an accelerometer that reads `force` where gravity is felt, and is multiplied by `scale`.
+std::string accel_unit_finding(double force, double scale);
+
 /// `offset` [s] as in TurnComparison.
 std::string offset_finding(double offset);
 /// Of one that was mended.

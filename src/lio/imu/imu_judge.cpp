@@ -3,8 +3,11 @@
 #include "lio/imu/imu_judge.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <tuple>
 #include <utility>
 
+#include "common/printed.hpp"
 #include "lio/imu/imu_findings.hpp"
 #include "lio/imu/is_about.hpp"
 
@@ -17,6 +20,29 @@ constexpr double kStandardGravity = 9.80665;  // [m/s^2]
 /// Scans and accelerometer tell the same motion: poses this near to the fit [m], and gravity.
 constexpr double kMaxRms = 0.03;
 constexpr double kGravityError = 0.08;  // share
+
+/// Times gravity, that nobody feels for long.
+constexpr double kMuch = 5.0;
+
+/// What makes m/s^2 of readings that are `force` long where `gravity` is felt.
+double accel_unit(double force, double gravity) {
+  return force > kMuch * gravity ? gravity / force : kStandardGravity;
+}
+
+/// Length of the mean of `readings`, and how far they are from it.
+std::pair<double, double> steadiness(
+    const std::vector<ImuSample>& readings, Eigen::Vector3d ImuSample::*part) {
+  const auto count = static_cast<double>(readings.size());
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const ImuSample& reading : readings) {
+    mean += reading.*part / count;
+  }
+  double variance = 0.0;
+  for (const ImuSample& reading : readings) {
+    variance += (reading.*part - mean).squaredNorm() / count;
+  }
+  return {mean.norm(), std::sqrt(variance)};
+}
 
 bool is_final(ImuVerdict verdict) {
   return verdict == ImuVerdict::kMended || verdict == ImuVerdict::kDoubtful ||
@@ -33,21 +59,16 @@ ImuJudge::ImuJudge(const ImuInputOptions& options, const Pose& T_body_lidar, dou
       accel_scale_(options.accel_scale == 0.0 ? 1.0 : options.accel_scale) {}
 
 ImuSample ImuJudge::mended(const ImuSample& reading) const {
-  return {reading.time, gyro_scale_ * reading.gyro, accel_scale_ * reading.accel};
+  const auto& [gyro, accel] =
+      are_swapped_ ? std::tie(reading.accel, reading.gyro) : std::tie(reading.gyro, reading.accel);
+  return {reading.time, gyro_scale_ * gyro, accel_scale_ * accel};
 }
 
 void ImuJudge::add(const ImuSample& reading) {
-  constexpr double kMaxDifference = 0.05;  // from 1 g at rest
   if (!knows_unit()) {
-    ++unit_count_;
-    unit_sum_ += reading.accel;
-    sq_unit_sum_ += reading.accel.squaredNorm();
-    const Eigen::Vector3d mean = unit_sum_ / unit_count_;
-    const double variance = sq_unit_sum_ / unit_count_ - mean.squaredNorm();
-    const bool is_g =
-        is_about(mean.norm(), 1.0, kMaxDifference) && variance <= kMaxDifference * kMaxDifference;
-    if (knows_unit() && is_g && options_.accel_scale == 0.0) {
-      measure_in_g();
+    first_.push_back(reading);
+    if (knows_unit()) {
+      find_units();
     }
   }
   gyro_clipping_.add(reading.gyro);
@@ -83,6 +104,7 @@ ImuVerdict ImuJudge::inspect(double time) {
     return ImuVerdict::kUnknown;
   }
   inspected_ = time;
+  ranges_.weigh(history_, kPeriod, gravity_);
   return weigh_rest(kPeriod);
 }
 
@@ -102,7 +124,7 @@ ImuVerdict ImuJudge::weigh_rest(double duration) {
 std::vector<std::string> ImuJudge::summary() const {
   std::vector<std::string> lines = findings_;
   const std::string clocks = tells_offset_ ? "" : clocks_.finding();
-  for (const std::string& line : {rest_.finding(accel_scale_), clocks}) {
+  for (const std::string& line : {rest_.finding(accel_scale_), ranges_.finding(), clocks}) {
     if (!line.empty()) {
       lines.push_back(line);
     }
@@ -110,11 +132,29 @@ std::vector<std::string> ImuJudge::summary() const {
   return lines;
 }
 
-void ImuJudge::measure_in_g() {
-  accel_scale_ = kStandardGravity;
-  tell(
-      "the accelerometer measures in g, for it reads 1 where gravity is felt: multiplied by "
-      "9.80665 (imu.accel_scale sets another factor)");
+// A sensor at rest, or nearly so, feels gravity and turns little, in whatever unit.
+void ImuJudge::find_units() {
+  constexpr double kSteady = 0.05;
+  const auto [gyro, gyro_deviation] = steadiness(first_, &ImuSample::gyro);
+  const auto [accel, accel_deviation] = steadiness(first_, &ImuSample::accel);
+  const bool is_still = accel_deviation <= kSteady * accel;
+  if (is_about(gyro, gravity_, 0.1) && gyro_deviation <= kSteady * gyro && accel < 0.1 * gravity_) {
+    are_swapped_ = true;
+    tell(printed(
+        "the gyroscope reads %.2f and the accelerometer %.2f at rest: the driver has swapped them; "
+        "swapped back",
+        gyro,
+        accel));
+  } else if (
+      options_.accel_scale == 0.0 && is_still &&
+      (is_about(accel, 1.0, kSteady) || accel > kMuch * gravity_)) {
+    mend_accel_unit(accel);
+  }
+}
+
+void ImuJudge::mend_accel_unit(double force) {
+  accel_scale_ = accel_unit(force, gravity_);
+  tell(accel_unit_finding(force, accel_scale_));
 }
 
 void ImuJudge::tell(std::string finding) {
@@ -156,10 +196,13 @@ ImuVerdict ImuJudge::judge_gravity() {
   if (is_about(fit->gravity.norm(), gravity_, kTolerance)) {
     return ImuVerdict::kGood;
   }
-  const std::optional<MotionFit> in_g = fit_motion(history_, kDuration, kStandardGravity);
-  if (in_g && accel_scale_ == 1.0 && options_.accel_scale == 0.0 && in_g->position_rms <= kMaxRms &&
-      is_about(in_g->gravity.norm(), gravity_, kGravityError)) {
-    measure_in_g();
+  const double felt = fit->gravity.norm();
+  const std::optional<MotionFit> mended =
+      fit_motion(history_, kDuration, accel_unit(felt, gravity_));
+  if (mended && accel_scale_ == 1.0 && options_.accel_scale == 0.0 &&
+      mended->position_rms <= kMaxRms &&
+      is_about(mended->gravity.norm(), gravity_, kGravityError)) {
+    mend_accel_unit(felt);
     history_.clear();
     return ImuVerdict::kMended;
   }

@@ -12,6 +12,7 @@
 #include "lio/imu/imu_input_options.hpp"
 #include "lio/imu/motion_fit.hpp"
 #include "lio/imu/motion_history.hpp"
+#include "lio/imu/range_scale.hpp"
 #include "lio/imu/rest_force.hpp"
 #include "lio/imu/turn_comparison.hpp"
 
@@ -40,8 +41,8 @@ class ImuJudge {
   /// The next poses belong to another stretch.
   void forget() { history_.clear(); }
 
-  /// Whether enough readings came to tell the unit of the accelerations.
-  bool knows_unit() const { return unit_count_ >= kUnitCount; }
+  /// Whether enough readings came to tell the units.
+  bool knows_unit() const { return first_.size() >= kUnitCount; }
   /// Of poses that know nothing of the IMU, once they last for `duration` [s].
   ImuVerdict judge(double duration);
   /// Of poses that were predicted by the IMU, in which small contradictions do not show.
@@ -65,31 +66,32 @@ class ImuJudge {
   std::vector<std::string> summary() const;
 
  private:
-  static constexpr int kUnitCount = 20;
+  static constexpr std::size_t kUnitCount = 20;
 
   ImuVerdict judge_turns(double max_mismatch, bool are_poses_apart);
-  void tell_contradiction(const TurnComparison& turns, bool is_turned);
+  void tell_contradiction(const TurnComparison& turns, bool is_turned, bool are_mirrored);
   ImuVerdict mend_gyro(double factor, std::string finding);
   void look_at_clock(double time);
   void mend_clock(double offset);
   ImuVerdict judge_gravity();
   ImuVerdict weigh_rest(double duration);
   ImuVerdict judge_sign(ImuVerdict turns);
-  void measure_in_g();
+  void find_units();
+  void mend_accel_unit(double force);
   void tell(std::string finding);
 
   ImuInputOptions options_;
   Pose T_body_lidar_;
   double gravity_;
   double gyro_scale_, accel_scale_;
-  int unit_count_ = 0;
-  Eigen::Vector3d unit_sum_ = Eigen::Vector3d::Zero();
-  double sq_unit_sum_ = 0.0;
+  bool are_swapped_ = false;      ///< gyroscope and accelerometer
+  std::vector<ImuSample> first_;  ///< readings as they came, that tell the units
   MotionHistory history_;
   bool has_offset_ = false;    ///< of the clocks, by the last look at the turns
   bool tells_offset_ = false;  ///< by any
   ImuClipping gyro_clipping_, accel_clipping_;
   RestForce rest_;
+  RangeScale ranges_;
   ClockWatch clocks_;
   double untaken_offset_ = 0.0;  ///< of the clock, for take_clock_offset() [s]
   double clocked_ = -1e300;      ///< until then the turns have told of the clock [s]

@@ -44,6 +44,14 @@ void MotionHistory::move_readings(double by) {
   }
 }
 
+void MotionHistory::turn_readings(const Eigen::Matrix3d& rotation) {
+  for (Reading& reading : readings_) {
+    reading.sample.gyro = (rotation * reading.sample.gyro).eval();
+    reading.sample.accel = (rotation * reading.sample.accel).eval();
+    reading.turned = (rotation * reading.turned).eval();
+  }
+}
+
 double MotionHistory::duration() const {
   return poses_.empty() ? 0.0 : poses_.back().time - poses_.front().time;
 }

@@ -27,6 +27,8 @@ class MotionHistory {
   void clear() { *this = MotionHistory(); }
   /// Moves the readings by a time [s].
   void move_readings(double by);
+  /// Turns the readings into other axes.
+  void turn_readings(const Eigen::Matrix3d& rotation);
 
   /// Time from the first pose to the last [s].
   double duration() const;

@@ -101,8 +101,8 @@ double find_offset(const MotionHistory& history, Pairs& pairs) {
   return best_offset;
 }
 
-/// The rotation that turns what the gyroscope says into what the scans say (Kabsch); of turns about
-/// one axis alone the smallest one.
+/// The rotation, and the reflection, that turn what the gyroscope says into what the scans say
+/// (Kabsch); of turns about one axis alone the smallest rotation and no reflection.
 void fit_rotation(const Pairs& pairs, TurnComparison& comparison) {
   constexpr double kMinShare = 0.02;  // of the second axis in the first
   Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
@@ -118,7 +118,11 @@ void fit_rotation(const Pairs& pairs, TurnComparison& comparison) {
     return;
   }
   const double sign = (U * V.transpose()).determinant() < 0.0 ? -1.0 : 1.0;
-  comparison.rotation = U * Eigen::Vector3d(1.0, 1.0, sign).asDiagonal() * V.transpose();
+  const auto with_last_axis = [&U, &V](double direction) {
+    return Eigen::Matrix3d(U * Eigen::Vector3d(1.0, 1.0, direction).asDiagonal() * V.transpose());
+  };
+  comparison.rotation = with_last_axis(sign);
+  comparison.reflection = with_last_axis(-sign);
 }
 
 double fitted_scale(const Pairs& pairs, const Eigen::Matrix3d& rotation) {
@@ -181,6 +185,11 @@ std::optional<TurnComparison> compare_turns(const MotionHistory& history) {
   fit_rotation(pairs, comparison);
   comparison.scale = fitted_scale(pairs, comparison.rotation);
   comparison.best_mismatch = mismatch_of(pairs, comparison.scale * comparison.rotation);
+  if (!comparison.is_about_one_axis) {
+    const Eigen::Matrix3d& reflection = comparison.reflection;
+    comparison.reflected_mismatch =
+        mismatch_of(pairs, fitted_scale(pairs, reflection) * reflection);
+  }
   fit_changes(pairs, comparison);
   return comparison;
 }

@@ -25,6 +25,9 @@ struct TurnComparison {
   /// From the IMU's axes to those that the poses take for them; identity where they agree.
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   bool is_about_one_axis = true;  ///< `rotation` is known up to a turn about it
+  /// The same if one set of axes is left-handed, and the mismatch that is left then.
+  Eigen::Matrix3d reflection = Eigen::Matrix3d::Identity();
+  double reflected_mismatch = 1.0;
 };
 
 /// Nothing until the scans of `history` have turned enough to tell. The offset, up to half a

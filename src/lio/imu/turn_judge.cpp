@@ -32,6 +32,43 @@ bool has_wrong_scale(const TurnComparison& turns) {
          turns.unexplained_changes < kMaxUnexplained;
 }
 
+/// A factor that no scale error reaches.
+bool has_other_unit(const TurnComparison& turns) {
+  constexpr double kMinTurned = 0.8;  // [rad]
+  constexpr double kFactor = 2.0;
+  return turns.turned >= kMinTurned && (turns.scale > kFactor || turns.scale < 1.0 / kFactor) &&
+         turns.scale > 0.0;
+}
+
+/// Exactly that of degrees and thousandths when it is one of these.
+double gyro_unit(double scale) {
+  constexpr double kTolerance = 0.2;
+  for (const double unit : {kDegree, 1e-3}) {
+    if (is_about(scale, unit, kTolerance)) {
+      return unit;
+    }
+  }
+  return scale;
+}
+
+/// The scans are a mirror image when the gyroscope fits them after half a turn, but accelerations
+/// are then felt the wrong way round: what a mirror does to turns, which are axial, and to forces.
+/// Nothing while the motion is too short to tell.
+std::optional<bool> are_scans_mirrored(const TurnComparison& turns, MotionHistory history) {
+  constexpr double kHalfTurn = 2.8;  // [rad]
+  constexpr double kDuration = 8.0;  // [s]
+  constexpr double kMaxDeviation = 0.25;
+  if (turns.is_about_one_axis || angle_of(turns.rotation) < kHalfTurn) {
+    return false;
+  }
+  history.turn_readings(turns.rotation);
+  const std::optional<MotionFit> fit = fit_motion(history, kDuration, 0.0);
+  if (fit && fit->accel_scale_deviation < kMaxDeviation) {
+    return fit->accel_scale < 0.0;
+  }
+  return history.duration() < kDuration ? std::nullopt : std::optional(false);
+}
+
 }  // namespace
 
 void ImuJudge::look_at_clock(double time) {
@@ -89,13 +126,9 @@ ImuVerdict ImuJudge::judge_turns(double max_mismatch, bool are_poses_apart) {
   if (turns->mismatch <= max_mismatch) {
     return ImuVerdict::kGood;
   }
-  if (may_mend && is_explained && is_about(turns->scale, kDegree, 0.2)) {
-    return mend_gyro(
-        kDegree,
-        printed(
-            "the gyroscope turns %.1f times as fast as the scans, so it measures in degrees per "
-            "second: multiplied by 0.0174533 (imu.gyro_scale sets another factor)",
-            1.0 / turns->scale));
+  if (may_mend && is_explained && has_other_unit(*turns)) {
+    const double factor = gyro_unit(turns->scale);
+    return mend_gyro(factor, gyro_unit_finding(1.0 / turns->scale, factor * gyro_scale_));
   }
   constexpr double kConclusive = 1.5;  // an offset of the clocks may yet explain it [rad]
   if (turns->turned < kConclusive) {
@@ -105,13 +138,22 @@ ImuVerdict ImuJudge::judge_turns(double max_mismatch, bool are_poses_apart) {
     history_.clear();
     return ImuVerdict::kDoubtful;
   }
-  tell_contradiction(*turns, is_explained && is_turned);
+  const std::optional<bool> are_mirrored = are_scans_mirrored(*turns, history_);
+  if (is_explained && is_turned && !are_mirrored) {
+    return ImuVerdict::kUnknown;
+  }
+  tell_contradiction(*turns, is_explained && is_turned, are_mirrored.value_or(false));
   return ImuVerdict::kUnusable;
 }
 
-void ImuJudge::tell_contradiction(const TurnComparison& turns, bool is_turned) {
+void ImuJudge::tell_contradiction(const TurnComparison& turns, bool is_turned, bool are_mirrored) {
+  constexpr double kAgrees = 0.1;
   if (is_turned && is_about(turns.scale, 1.0, 0.2)) {
-    tell(rotation_finding(turns, T_body_lidar_));
+    tell(
+        are_mirrored ? mirrored_scans_finding(Eigen::AngleAxisd(turns.rotation).axis())
+                     : rotation_finding(turns, T_body_lidar_));
+  } else if (turns.reflected_mismatch < kAgrees) {
+    tell(left_handed_finding(turns.reflection));
   } else if (!has_offset_) {
     tell(printed(
         "the gyroscope does not turn as the scans do (they differ by %.0f %% of %.1f rad): is "

@@ -182,6 +182,7 @@ void InertialPipeline::match(FrameResult& result) {
   const StageTimer timer(result.times.optimize);
   pick(prepared_.scan.points, prepared_.keypoints, key_points_);
   pick(prepared_.normals, prepared_.keypoints, key_normals_);
+  pick(prepared_.scan.ages, prepared_.keypoints, key_ages_);
   result.points = prepared_.scan.size();
   result.keypoints = prepared_.keypoints.size();
   if (map_->size() == 0) {
@@ -203,6 +204,7 @@ void InertialPipeline::match(FrameResult& result) {
   result.iterations = match.iterations;
   if (match.accepted && (was_sure ? agrees_with_map(match) : fits_well(match, result.keypoints))) {
     believe();
+    watch_deskewing();
     result.status = FrameStatus::kTracking;
     if (!placed_time_ || result.unobserved.translations.empty()) {
       placed_time_ = result.time;
@@ -217,6 +219,20 @@ void InertialPipeline::match(FrameResult& result) {
   const bool lost = result.time - motion_.last().time > options_.max_weak_duration;
   result.status = lost ? FrameStatus::kLost : FrameStatus::kWeak;
   result.message = kTooLittleFits;
+}
+
+void InertialPipeline::watch_deskewing() {
+  const NavState& state = filter_->state();
+  const Eigen::Matrix3d R_lidar_body = state.T_body_lidar.linear().transpose();
+  const Eigen::Vector3d& rate = motion_.rate();
+  const Eigen::Vector3d velocity = state.T_world_body.linear().transpose() * motion_.velocity() +
+                                   rate.cross(state.T_body_lidar.translation());
+  pick(prepared_.scan.points, prepared_.keypoints, key_points_);
+  alone_.deskew_watch().add(
+      *map_,
+      {key_points_, key_normals_, key_ages_},
+      state.T_world_lidar(),
+      {R_lidar_body * velocity, R_lidar_body * rate});
 }
 
 // Every later pose will be one in this scan's surfaces.

@@ -109,6 +109,7 @@ class InertialPipeline final : public Pipeline {
   bool is_sure() const;
   bool is_adrift(const UnobservedDirections& unobserved) const;
   bool agrees_with_map(const MatchResult& match) const;
+  void watch_deskewing();
   void insert(FrameResult& result);
 
   InertialOptions options_;
@@ -147,6 +148,7 @@ class InertialPipeline final : public Pipeline {
   std::vector<MotionSegment> segments_;
   PreparedScan prepared_;
   std::vector<Eigen::Vector3f> key_points_, key_normals_;
+  std::vector<float> key_ages_;
 };
 
 }  // namespace nvm::lio

@@ -213,6 +213,9 @@ std::vector<std::string> InertialPipeline::findings() const {
       findings.push_back(line);
     }
   }
+  if (const std::string times = alone_.deskew_watch().finding(); !times.empty()) {
+    findings.insert(findings.begin(), times);
+  }
   return findings;
 }
 

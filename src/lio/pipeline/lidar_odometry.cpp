@@ -101,8 +101,13 @@ void LidarOdometry::follow(const Scan& scan, FrameResult& result) {
 }
 
 std::vector<std::string> LidarOdometry::findings() const {
-  const std::string finding = faint_.finding();
-  return finding.empty() ? std::vector<std::string>{} : std::vector<std::string>{finding};
+  std::vector<std::string> findings;
+  for (const std::string& line : {deskew_watch_.finding(), faint_.finding()}) {
+    if (!line.empty()) {
+      findings.push_back(line);
+    }
+  }
+  return findings;
 }
 
 bool LidarOdometry::is_usable(const Scan& scan, FrameResult& result) const {
@@ -170,6 +175,7 @@ void LidarOdometry::match(const Normals& normals, FrameResult& result) {
     result.T_map_lidar = aligned.T_map_scan;
     result.pose_covariance = covariance_of(aligned, options_.T_body_lidar);
     faint_.add(aligned, range, options_.T_body_lidar.linear());
+    watch_deskewing(aligned.T_map_scan);
     describe_directions(result);
     return;
   }
@@ -194,6 +200,20 @@ void LidarOdometry::choose_keypoints(const Normals& normals) {
   const std::vector<std::uint32_t>& keypoints = sampler_.sample(scan_.points, normals);
   pick(scan_.points, keypoints, key_points_);
   pick(normals, keypoints, key_normals_);
+  pick(scan_.ages, keypoints, key_ages_);
+}
+
+void LidarOdometry::watch_deskewing(const Pose& T_map_lidar) {
+  const Eigen::Matrix3d R_lidar_body = options_.T_body_lidar.linear().transpose();
+  const Eigen::Vector3d rate = -predicted_.gyro_bias;
+  const Eigen::Vector3d velocity =
+      predicted_.T_world_body.linear().transpose() * predicted_.velocity +
+      rate.cross(options_.T_body_lidar.translation());
+  deskew_watch_.add(
+      *map_,
+      {key_points_, key_normals_, key_ages_},
+      T_map_lidar,
+      {R_lidar_body * velocity, R_lidar_body * rate});
 }
 
 bool LidarOdometry::is_believable(const AlignResult& result) const {

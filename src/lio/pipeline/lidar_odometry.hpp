@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/executor.hpp"
+#include "lio/match/deskew_watch.hpp"
 #include "lio/match/faint_direction.hpp"
 #include "lio/pipeline/lidar_odometry_options.hpp"
 #include "lio/pipeline/pipeline.hpp"
@@ -55,6 +56,9 @@ class LidarOdometry final : public Pipeline {
   const std::vector<Eigen::Vector3f>& normals() const override { return *normals_; }
   void start_at(const Pose& T_map_body) override;
   std::vector<std::string> findings() const override;
+  /// What the scans say of the times of their points. Others may lead some of the scans.
+  DeskewWatch& deskew_watch() { return deskew_watch_; }
+  const DeskewWatch& deskew_watch() const { return deskew_watch_; }
 
  private:
   using Normals = std::vector<Eigen::Vector3f>;
@@ -69,6 +73,7 @@ class LidarOdometry final : public Pipeline {
   void match(const Normals& normals, FrameResult& result);
   void describe_directions(FrameResult& result);
   void choose_keypoints(const Normals& normals);
+  void watch_deskewing(const Pose& T_map_lidar);
   AlignResult align(const Normals& normals);
   AlignResult refine(const Normals& normals, const AlignResult& first);
   bool is_believable(const AlignResult& result) const;
@@ -84,6 +89,7 @@ class LidarOdometry final : public Pipeline {
   std::shared_ptr<LioMap> map_;
   std::optional<ConstantVelocity> motion_;  // of the body; nothing before the first believed scan
   FaintDirection faint_;
+  DeskewWatch deskew_watch_;
   NavState predicted_;          // at the end of the scan in work
   double observed_time_ = 0.0;  // of the last believed frame that told all directions [s]
   std::optional<Scan> first_;   // of the map, until the second tells how it moved
@@ -94,6 +100,7 @@ class LidarOdometry final : public Pipeline {
   std::vector<MotionSegment> segments_;
   DeskewedScan scan_;
   std::vector<Eigen::Vector3f> key_points_, key_normals_;
+  std::vector<float> key_ages_;
   Normals no_normals_;
   const Normals* normals_ = &no_normals_;  // of scan_
 };

@@ -91,14 +91,4 @@ double mean_range(const std::vector<Eigen::Vector3f>& points) {
   return points.empty() ? 0.0 : sum / static_cast<double>(points.size());
 }
 
-void pick(
-    const std::vector<Eigen::Vector3f>& all,
-    const std::vector<std::uint32_t>& indices,
-    std::vector<Eigen::Vector3f>& picked) {
-  picked.clear();
-  for (const std::uint32_t index : indices) {
-    picked.push_back(all[index]);
-  }
-}
-
 }  // namespace nvm::lio

@@ -61,9 +61,15 @@ class KeypointSampler {
 double mean_range(const std::vector<Eigen::Vector3f>& points);
 
 /// Makes `picked` the elements of `all` at `indices`.
+template <typename Value>
 void pick(
-    const std::vector<Eigen::Vector3f>& all,
+    const std::vector<Value>& all,
     const std::vector<std::uint32_t>& indices,
-    std::vector<Eigen::Vector3f>& picked);
+    std::vector<Value>& picked) {
+  picked.clear();
+  for (const std::uint32_t index : indices) {
+    picked.push_back(all[index]);
+  }
+}
 
 }  // namespace nvm::lio

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#include "lio/imu/range_scale.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "common/printed.hpp"
+#include "lio/imu/is_about.hpp"
+#include "lio/imu/motion_fit.hpp"
+
+namespace nvm::lio {
+
+void RangeScale::weigh(const MotionHistory& history, double duration, double gravity) {
+  constexpr double kGravityError = 0.03;  // share
+  constexpr double kMaxDeviation = 0.3;   // share
+  const std::optional<MotionFit> fit = fit_motion(history, duration, 0.0);
+  if (!fit || !(fit->accel_scale_deviation < kMaxDeviation * fit->accel_scale) ||
+      !is_about(fit->gravity.norm() / fit->accel_scale, gravity, kGravityError)) {
+    return;
+  }
+  const double weight = 1.0 / (fit->accel_scale_deviation * fit->accel_scale_deviation);
+  ++motions_;
+  weight_ += weight;
+  sum_ += weight * fit->accel_scale;
+  sum_squares_ += weight * fit->accel_scale * fit->accel_scale;
+}
+
+std::string RangeScale::finding() const {
+  constexpr std::size_t kFewest = 3;
+  // Poses of a VLP-16 in small rooms give 0.95 with right ranges.
+  constexpr double kMinError = 0.08;
+  constexpr double kDeviations = 5.0;
+  if (motions_ < kFewest) {
+    return "";
+  }
+  const double factor = sum_ / weight_;
+  const double sq_spread = std::max(0.0, sum_squares_ - factor * sum_);
+  const double spread = std::max(1.0, sq_spread / static_cast<double>(motions_ - 1));
+  const double deviation = std::sqrt(spread / weight_);
+  if (std::abs(factor - 1.0) < std::max(kMinError, kDeviations * deviation)) {
+    return "";
+  }
+  return printed(
+      "the scans tell %.3g (+- %.2g) times the motion that the accelerometer feels, and that feels "
+      "gravity as it should: the ranges are off by this factor (feet for metres give 3.28), and so "
+      "are poses and map. Let the LiDAR's driver give metres, or calibrate it",
+      factor,
+      2.0 * deviation);
+}
+
+}  // namespace nvm::lio

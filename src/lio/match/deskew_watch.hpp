@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The nvm authors
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "lio/map/lio_map.hpp"
+#include "nvm/geometry/pose.hpp"
+
+namespace nvm::lio {
+
+/// Keypoints of a deskewed scan, by the arrays that hold them.
+struct DeskewedKeypoints {
+  const std::vector<Eigen::Vector3f>& points;   ///< [m], scan frame
+  const std::vector<Eigen::Vector3f>& normals;  ///< unit or sighting, scan frame
+  const std::vector<float>& ages;               ///< scan's end - time of the point [s]
+};
+
+/// How the LiDAR moves during a sweep, in the scan frame.
+struct SweepMotion {
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s]
+  Eigen::Vector3d rate = Eigen::Vector3d::Zero();      ///< [rad/s]
+};
+
+/// Notices point times that are not those of the points. A scan fits the map best when each point
+/// is moved by some share of what deskewing did: by 1 if its time is right, 0 if a driver had
+/// deskewed the scan already, 2 if the times say half of what they should, -1 if they run
+/// backwards.
+class DeskewWatch {
+ public:
+  /// Takes a scan before it enters `map`, in which it was found at `T_map_lidar`. One that hardly
+  /// turns says nothing, nor do more than a hundred.
+  void add(
+      const LioMap& map,
+      const DeskewedKeypoints& keypoints,
+      const Pose& T_map_lidar,
+      const SweepMotion& motion);
+
+  /// One line, once the share is clearly another; "" before.
+  std::string finding() const;
+
+ private:
+  std::size_t scans_ = 0;
+  double weight_ = 0.0;       ///< of all scans, squares of metres
+  double sum_ = 0.0;          ///< weighted, of the share
+  double sum_squares_ = 0.0;  ///< weighted
+};
+
+}  // namespace nvm::lio
