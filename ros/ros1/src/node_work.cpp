@@ -12,8 +12,17 @@
 
 namespace nvm_ros {
 
+namespace {
+
+/// When it came [s].
+double time_of(const RawCloud& cloud) {
+  return std::isfinite(cloud.record_time) ? cloud.record_time : cloud.stamp;
+}
+
+}  // namespace
+
 void Node::work() {
-  constexpr std::size_t kEnough = 5;
+  constexpr std::size_t kEnough = 10;
   while (std::optional<RawCloud> cloud = queue_->next_cloud()) {
     if (has_learnt_) {
       try_to_process(*cloud);
@@ -30,9 +39,11 @@ void Node::work() {
 // How points and scans are dated is judged over the first clouds, as any one may be bad.
 void Node::learn() {
   std::vector<nvm::io::CloudMessage> clouds;
+  nvm::io::CloudStream stream;
   for (const RawCloud& raw : first_) {
     try {
       nvm::io::CloudMessage cloud = nvm::io::read_cloud(raw.message);
+      stream.check(cloud, time_of(raw));
       cloud.record_time = raw.record_time;
       cloud.records.source = topics_.lidar;
       clouds.push_back(std::move(cloud));
@@ -43,6 +54,7 @@ void Node::learn() {
   if (!clouds.empty()) {
     converter_.learn(clouds);
     has_learnt_ = true;
+    overlap_finding_ = overlap_.learn(converter_.preview(clouds));
   }
   for (const RawCloud& raw : first_) {
     try_to_process(raw);
@@ -68,8 +80,10 @@ void Node::process(const RawCloud& cloud) {
     const std::lock_guard lock(mutex_);
     begin_anew(fmt::format("time has gone back to {:.3f} s", cloud.stamp));
   }
-  const nvm::Scan scan =
-      converter_.convert(nvm::io::read_cloud(cloud.message).records, cloud.stamp);
+  const nvm::io::CloudMessage message = nvm::io::read_cloud(cloud.message);
+  stream_.check(message, time_of(cloud));
+  const nvm::Scan scan = converter_.convert(message.records, cloud.stamp);
+  overlap_.check(scan);
   const auto readings = queue_->imu_until(cloud, imu_needed_until(scan.t_end));
   if (!readings) {
     return;
@@ -154,6 +168,9 @@ void Node::tell_findings(double time) {
   const bool is_dated = converter_.times().base != nvm::io::PointTimes::Base::kNone;
   findings.insert(
       findings.end(), notes.begin() + (is_dated && !notes.empty() ? 1 : 0), notes.end());
+  if (!overlap_finding_.empty()) {
+    findings.push_back(overlap_finding_);
+  }
   for (const std::string& finding : finding_watch_.new_ones(time, findings)) {
     ROS_WARN("%s", finding.c_str());
     statistics_.note(finding, true);

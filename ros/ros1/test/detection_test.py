@@ -46,11 +46,31 @@ def without_imu(world, listener, bag):
     publisher = rospy.Publisher("/scans", PointCloud2, queue_size=100)
     node = world.start_node("detection_time:=0.5", name="without")
     wait_until(lambda: publisher.get_num_connections() > 0, "the node listens")
-    for cloud in clouds[:6]:
+    for cloud in clouds[:12]:
         publisher.publish(cloud)
     wait_until(lambda: len(listener.odometry) >= 4, "scans alone give poses")
     assert listener.odometry[0].child_frame_id == "lidar"
     assert "no IMU topic" in world.output("without")
+    end(node)
+    publisher.unregister()
+
+
+def two_lidars(world, listener, bag):
+    """Clouds of another frame in between are left out and named."""
+    listener.clear()
+    clouds = [message for _, message, _ in rosbag.Bag(bag).read_messages("/lidar")][:15]
+    publisher = rospy.Publisher("/scans", PointCloud2, queue_size=100)
+    node = world.start_node("detection_time:=0.5", "queue_size:=1000", name="two")
+    wait_until(lambda: publisher.get_num_connections() > 0, "the node listens")
+    for cloud in clouds:
+        frame = cloud.header.frame_id
+        publisher.publish(cloud)
+        cloud.header.frame_id = "another_lidar"
+        publisher.publish(cloud)
+        cloud.header.frame_id = frame
+    wait_until(lambda: len(listener.odometry) >= 12, "one of them gives poses")
+    wait_until(lambda: "two LiDARs on one topic" in world.output("two"), "the other one is named")
+    assert len(listener.odometry) <= len(clouds), len(listener.odometry)
     end(node)
     publisher.unregister()
 
@@ -106,6 +126,7 @@ def test(world):
     listener = Listener()
     of_another_type(world, listener)
     without_imu(world, listener, bag)
+    two_lidars(world, listener, bag)
     too_fast(world, listener, bag)
     with_tf(world, listener, bag)
 

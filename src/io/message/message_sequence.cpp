@@ -156,25 +156,11 @@ class MessageSequence : public SequenceReader {
     }
     converter_ = ScanConverter(times);
     converter_.learn(clouds);
-    if (const std::string overlap = overlap_.learn(sweeps(clouds)); !overlap.empty()) {
+    if (const std::string overlap = overlap_.learn(converter_.preview(clouds)); !overlap.empty()) {
       info_.notes.push_back(overlap);
     }
     info_.has_point_times = converter_.has_point_times();
     info_.origin = converter_.origin();
-  }
-
-  /// Of `clouds`, without counting what is wrong with them: they come again.
-  std::vector<Scan> sweeps(const std::vector<CloudMessage>& clouds) const {
-    ScanConverter converter = converter_;
-    std::vector<Scan> sweeps;
-    for (const CloudMessage& cloud : clouds) {
-      try {
-        sweeps.push_back(converter.convert(cloud.records, cloud.stamp));
-      } catch (const std::runtime_error&) {
-        continue;  // advance() counts it
-      }
-    }
-    return sweeps;
   }
 
   /// Reads one message; false at the end. A bad one is counted and left out.

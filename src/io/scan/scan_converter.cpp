@@ -131,6 +131,19 @@ std::vector<std::string> ScanConverter::notes() const {
   return notes;
 }
 
+std::vector<Scan> ScanConverter::preview(const std::vector<CloudMessage>& clouds) const {
+  ScanConverter converter = *this;
+  std::vector<Scan> scans;
+  for (const CloudMessage& cloud : clouds) {
+    try {
+      scans.push_back(converter.convert(cloud.records, cloud.stamp));
+    } catch (const std::runtime_error&) {
+      continue;  // it is told when it comes again
+    }
+  }
+  return scans;
+}
+
 Scan ScanConverter::convert(const PointRecords& records, double stamp) {
   if (!has_learnt_) {
     learn({{stamp, records}});

@@ -42,6 +42,9 @@ class ScanConverter {
   /// Throws std::runtime_error, naming the source, without x y z or with a time field that is
   /// asked for and not there.
   Scan convert(const PointRecords& records, double stamp);
+  /// Clouds that will come again, without counting what is wrong with them; those that cannot be
+  /// converted are left out.
+  std::vector<Scan> preview(const std::vector<CloudMessage>& clouds) const;
 
   const PointTimes& times() const { return times_; }
 

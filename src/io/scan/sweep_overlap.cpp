@@ -38,7 +38,9 @@ std::string SweepOverlap::learn(const std::vector<Scan>& first) {
 void SweepOverlap::check(const Scan& scan) {
   constexpr double kJitter = 0.05;  // of a sweep
   const double overlap = kept_until_ - scan.t_begin;
-  if (is_watched_ && overlap > kJitter * (scan.t_end - scan.t_begin)) {
+  const double length = scan.t_end - scan.t_begin;
+  const bool goes_back = overlap > 2.0 * length;  // a looped bag
+  if (is_watched_ && overlap > kJitter * length && !goes_back) {
     throw std::runtime_error(fmt::format("overlaps the cloud before by {:.3f} s", overlap));
   }
   kept_until_ = scan.t_end;

@@ -19,7 +19,8 @@ class SweepOverlap {
   std::string learn(const std::vector<Scan>& first);
 
   /// Takes the next sweep. Throws std::runtime_error for one that overlaps the one kept last,
-  /// where the first ones did: stamps that jitter make single sweeps of any LiDAR overlap.
+  /// where the first ones did: stamps that jitter make single sweeps of any LiDAR overlap. Time may
+  /// go back by more than two sweeps, and all begins anew.
   void check(const Scan& scan);
 
  private:
