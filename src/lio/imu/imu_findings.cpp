@@ -63,6 +63,16 @@ std::string left_handed_finding(const Eigen::Matrix3d& reflection) {
          "used. Mend the driver";
 }
 
+std::string gyro_scale_finding(double factor, double scale) {
+  return printed(
+      "the gyroscope turns by %.1f %% too %s for the scans: multiplied by %.4g (imu.gyro_scale "
+      "sets "
+      "another factor, or 1 for none)",
+      100.0 * std::abs(1.0 / factor - 1.0),
+      factor < 1.0 ? "much" : "little",
+      scale);
+}
+
 std::string gyro_unit_finding(double times, double scale) {
   const char* unit = "a unit of its own";
   if (is_about(times, 57.3, 0.2)) {

@@ -23,6 +23,9 @@ std::string mirrored_scans_finding(const Eigen::Vector3d& normal);
 /// Of a gyroscope that turns as the scans do once its readings are multiplied by `reflection`.
 std::string left_handed_finding(const Eigen::Matrix3d& reflection);
 
+/// Of a gyroscope whose readings need a `factor`, and are multiplied by `scale` in all.
+std::string gyro_scale_finding(double factor, double scale);
+
 /// Of a gyroscope that turns `times` as fast as the scans, and is multiplied by `scale`.
 std::string gyro_unit_finding(double times, double scale);
 

@@ -123,7 +123,7 @@ ImuVerdict ImuJudge::weigh_rest(double duration) {
 
 std::vector<std::string> ImuJudge::summary() const {
   std::vector<std::string> lines = findings_;
-  const std::string clocks = tells_offset_ ? "" : clocks_.finding();
+  const std::string clocks = tells_offset_ || contradicts_ ? "" : clocks_.finding();
   for (const std::string& line : {rest_.finding(accel_scale_), ranges_.finding(), clocks}) {
     if (!line.empty()) {
       lines.push_back(line);

@@ -70,7 +70,8 @@ class ImuJudge {
 
   ImuVerdict judge_turns(double max_mismatch, bool are_poses_apart);
   void tell_contradiction(const TurnComparison& turns, bool is_turned, bool are_mirrored);
-  ImuVerdict mend_gyro(double factor, std::string finding);
+  bool mend_offset(const TurnComparison& turns, bool is_explained);
+  bool mend_gyro(const TurnComparison& turns, bool is_explained);
   void look_at_clock(double time);
   void mend_clock(double offset);
   ImuVerdict judge_gravity();
@@ -89,6 +90,7 @@ class ImuJudge {
   MotionHistory history_;
   bool has_offset_ = false;    ///< of the clocks, by the last look at the turns
   bool tells_offset_ = false;  ///< by any
+  bool contradicts_ = false;   ///< the gyroscope the scans: it tells nothing of clocks
   ImuClipping gyro_clipping_, accel_clipping_;
   RestForce rest_;
   RangeScale ranges_;

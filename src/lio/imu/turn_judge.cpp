@@ -3,6 +3,7 @@
 //
 // What an ImuJudge makes of turns: the gyroscope's units, axes and clock.
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -30,6 +31,12 @@ bool has_wrong_scale(const TurnComparison& turns) {
   return turns.turned >= kMinTurned && turns.offset == 0.0 && error > kMinError &&
          error < kMaxError && error > kDeviations * turns.scale_deviation &&
          turns.unexplained_changes < kMaxUnexplained;
+}
+
+/// Whether one set of axes is: then nearly all is explained that way, and less by a rotation.
+bool is_left_handed(const TurnComparison& turns) {
+  constexpr double kAgrees = 0.1;
+  return turns.reflected_mismatch < std::min(kAgrees, 0.5 * turns.best_mismatch);
 }
 
 /// A factor that no scale error reaches.
@@ -94,43 +101,19 @@ double ImuJudge::take_clock_offset() { return std::exchange(untaken_offset_, 0.0
 ImuVerdict ImuJudge::judge_turns(double max_mismatch, bool are_poses_apart) {
   constexpr double kAgrees = 0.1;
   constexpr double kSmallTurn = 0.25;  // [rad]
-  constexpr double kMaxOffset = 0.6;   // in all: of other recordings something always fits [s]
+  constexpr double kConclusive = 1.5;  // an offset of the clocks may yet explain less [rad]
   const std::optional<TurnComparison> turns = compare_turns(history_);
   if (!turns) {
     return ImuVerdict::kUnknown;
   }
   const bool is_explained = turns->best_mismatch < kAgrees;
-  const bool is_turned = angle_of(turns->rotation) > kSmallTurn;
-  has_offset_ = turns->offset != 0.0 && is_explained;
-  if (has_offset_ && options_.learns_time_offset &&
-      std::abs(clocks_.mended() + turns->offset) <= kMaxOffset) {
-    mend_clock(turns->offset);
+  const bool is_turned = angle_of(turns->rotation) > kSmallTurn && !is_left_handed(*turns);
+  if (mend_offset(*turns, is_explained) || (!is_turned && mend_gyro(*turns, is_explained))) {
     return ImuVerdict::kMended;
-  }
-  if (has_offset_) {
-    tell(offset_finding(turns->offset));
-    tells_offset_ = true;
-  }
-  const bool may_mend = !is_turned && options_.gyro_scale == 0.0;
-  if (may_mend && has_wrong_scale(*turns)) {
-    const double scale = turns->scale_of_changes;
-    return mend_gyro(
-        scale,
-        printed(
-            "the gyroscope turns by %.1f %% too %s for the scans: multiplied by %.4g "
-            "(imu.gyro_scale sets another factor, or 1 for none)",
-            100.0 * std::abs(1.0 / scale - 1.0),
-            scale < 1.0 ? "much" : "little",
-            scale * gyro_scale_));
   }
   if (turns->mismatch <= max_mismatch) {
     return ImuVerdict::kGood;
   }
-  if (may_mend && is_explained && has_other_unit(*turns)) {
-    const double factor = gyro_unit(turns->scale);
-    return mend_gyro(factor, gyro_unit_finding(1.0 / turns->scale, factor * gyro_scale_));
-  }
-  constexpr double kConclusive = 1.5;  // an offset of the clocks may yet explain it [rad]
   if (turns->turned < kConclusive) {
     return ImuVerdict::kUnknown;
   }
@@ -146,13 +129,46 @@ ImuVerdict ImuJudge::judge_turns(double max_mismatch, bool are_poses_apart) {
   return ImuVerdict::kUnusable;
 }
 
+// An offset that may not be mended is told.
+bool ImuJudge::mend_offset(const TurnComparison& turns, bool is_explained) {
+  constexpr double kMaxOffset = 0.6;  // in all: of other recordings something always fits [s]
+  has_offset_ = turns.offset != 0.0 && is_explained;
+  if (!has_offset_) {
+    return false;
+  }
+  if (options_.learns_time_offset && std::abs(clocks_.mended() + turns.offset) <= kMaxOffset) {
+    mend_clock(turns.offset);
+    return true;
+  }
+  tell(offset_finding(turns.offset));
+  tells_offset_ = true;
+  return false;
+}
+
+bool ImuJudge::mend_gyro(const TurnComparison& turns, bool is_explained) {
+  if (options_.gyro_scale != 0.0) {
+    return false;
+  }
+  if (has_wrong_scale(turns)) {
+    gyro_scale_ *= turns.scale_of_changes;
+    tell(gyro_scale_finding(turns.scale_of_changes, gyro_scale_));
+  } else if (is_explained && has_other_unit(turns)) {
+    gyro_scale_ *= gyro_unit(turns.scale);
+    tell(gyro_unit_finding(1.0 / turns.scale, gyro_scale_));
+  } else {
+    return false;
+  }
+  history_.clear();
+  return true;
+}
+
 void ImuJudge::tell_contradiction(const TurnComparison& turns, bool is_turned, bool are_mirrored) {
-  constexpr double kAgrees = 0.1;
+  contradicts_ = true;
   if (is_turned && is_about(turns.scale, 1.0, 0.2)) {
     tell(
         are_mirrored ? mirrored_scans_finding(Eigen::AngleAxisd(turns.rotation).axis())
                      : rotation_finding(turns, T_body_lidar_));
-  } else if (turns.reflected_mismatch < kAgrees) {
+  } else if (is_left_handed(turns)) {
     tell(left_handed_finding(turns.reflection));
   } else if (!has_offset_) {
     tell(printed(
@@ -161,13 +177,6 @@ void ImuJudge::tell_contradiction(const TurnComparison& turns, bool is_turned, b
         100.0 * std::sqrt(turns.mismatch),
         turns.turned));
   }
-}
-
-ImuVerdict ImuJudge::mend_gyro(double factor, std::string finding) {
-  gyro_scale_ *= factor;
-  history_.clear();
-  tell(std::move(finding));
-  return ImuVerdict::kMended;
 }
 
 }  // namespace nvm::lio
