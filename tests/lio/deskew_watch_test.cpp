@@ -19,6 +19,12 @@ using ::testing::HasSubstr;
 
 constexpr float kSweep = 0.1F;  // [s]
 
+/// The motion of a body, by that of the LiDAR on it.
+SweepMotion of_body(const SweepMotion& lidar, const Pose& T_body_lidar) {
+  const Eigen::Vector3d rate = T_body_lidar.linear() * lidar.rate;
+  return {T_body_lidar.linear() * lidar.velocity - rate.cross(T_body_lidar.translation()), rate};
+}
+
 /// What a watch says of `scans` sweeps in a known room, whose points lie where `share` of deskewing
 /// puts them best, while they were moved by all of it.
 std::string finding(double share, int scans, double turning) {
@@ -30,6 +36,9 @@ std::string finding(double share, int scans, double turning) {
     const test::RoomScan scan = room.scan(Pose::Identity(), 3000, 0.005, rng);
     map->insert(scan.points, scan.normals, Pose::Identity());
   }
+  Pose T_body_lidar = Pose::Identity();
+  T_body_lidar.linear() = so3_exp({0.3, -1.0, 2.0});
+  T_body_lidar.translation() << 0.4, -0.3, 0.8;
   DeskewWatch watch;
   for (int i = 0; i < scans; ++i) {
     const SweepMotion motion{
@@ -43,7 +52,12 @@ std::string finding(double share, int scans, double turning) {
       const double excess = (1.0 - share) * static_cast<double>(ages[k]);
       scan.points[k] -= (excess * (motion.velocity + motion.rate.cross(p))).cast<float>();
     }
-    watch.add(*map, {scan.points, scan.normals, ages}, Pose::Identity(), motion);
+    watch.add(
+        *map,
+        {scan.points, scan.normals, ages},
+        T_body_lidar.inverse(),
+        T_body_lidar,
+        of_body(motion, T_body_lidar));
   }
   return watch.finding();
 }

@@ -6,58 +6,19 @@
 
 #include <Eigen/Geometry>
 #include <cstdio>
-#include <functional>
-#include <random>
 #include <stdexcept>
 
-#include "lio/analytic_motion.hpp"
-#include "support/rng.hpp"
+#include "lio/imu_witness.hpp"
 
 namespace nvm::lio {
 namespace {
 
+using test::ImuWitness;
+
 constexpr double kDegree = 0.017453292519943295;
 
-/// Feeds a judge `duration` [s] of a swaying motion: readings at 100 Hz, changed, and noisy poses
-/// at 10 Hz. Stops at its first verdict that is final.
-class Witness {
- public:
-  std::function<ImuSample(double)> reading = [this](double t) { return motion.imu(t); };
-  Pose T_body_lidar = Pose::Identity();  ///< that the poses wrongly do not know
-  Pose mirror = Pose::Identity();        ///< that the scans were seen in
-  ImuInputOptions options;
-  test::AnalyticMotion motion{-3.0};
-
-  ImuVerdict verdict(double duration) {
-    ImuVerdict verdict = ImuVerdict::kUnknown;
-    for (int i = 0; i < static_cast<int>(100 * duration); ++i) {
-      judge.add(reading(0.01 * i));
-      if (i % 10 == 9) {
-        judge.add(pose(0.01 * i));
-        verdict = judge.judge(1.0);
-        if (verdict == ImuVerdict::kUnusable || verdict == ImuVerdict::kMended) {
-          break;
-        }
-      }
-    }
-    return verdict;
-  }
-
-  StampedPose pose(double t) {
-    Pose pose = mirror * T_body_lidar.inverse() * motion.pose(t) * T_body_lidar * mirror;
-    for (int axis = 0; axis < 3; ++axis) {
-      pose.translation()[axis] += 0.003 * noise(rng);
-    }
-    return {t, pose};
-  }
-
-  std::mt19937_64 rng = test::rng();
-  std::normal_distribution<double> noise{0.0, 1.0};
-  ImuJudge judge{options, Pose::Identity(), 9.81};
-};
-
 TEST(ImuJudge, BelievesAnImuThatTellsTheScansMotion) {
-  Witness witness;
+  ImuWitness witness;
   EXPECT_EQ(witness.verdict(6.0), ImuVerdict::kGood);
   EXPECT_TRUE(witness.judge.findings().empty());
   const auto motion = witness.judge.motion();
@@ -67,7 +28,7 @@ TEST(ImuJudge, BelievesAnImuThatTellsTheScansMotion) {
 }
 
 TEST(ImuJudge, TurnsDegreesIntoRadians) {
-  Witness witness;
+  ImuWitness witness;
   witness.reading = [&](double t) {
     ImuSample sample = witness.motion.imu(t);
     sample.gyro /= kDegree;
@@ -81,7 +42,7 @@ TEST(ImuJudge, TurnsDegreesIntoRadians) {
 
 TEST(ImuJudge, MendsAGyroscopesScaleAlone) {
   for (const double scale : {0.8, 1.1, 1.2}) {
-    Witness witness;
+    ImuWitness witness;
     witness.reading = [&](double t) {
       ImuSample sample = witness.motion.imu(t);
       sample.gyro = scale * sample.gyro + Eigen::Vector3d(0.0, 0.0, 0.03);  // not taken for scale
@@ -95,7 +56,7 @@ TEST(ImuJudge, MendsAGyroscopesScaleAlone) {
         witness.judge.mended({0.0, {0.0, 0.0, scale}, Eigen::Vector3d::Zero()}).gyro;
     EXPECT_NEAR(mended.z(), 1.0, 0.02) << scale;
   }
-  Witness biased;
+  ImuWitness biased;
   biased.reading = [&](double t) {
     ImuSample sample = biased.motion.imu(t);
     sample.gyro += Eigen::Vector3d(0.03, -0.03, 0.03);
@@ -106,7 +67,7 @@ TEST(ImuJudge, MendsAGyroscopesScaleAlone) {
 }
 
 TEST(ImuJudge, TurnsGIntoMetresPerSquareSecond) {
-  Witness witness;
+  ImuWitness witness;
   witness.reading = [&](double t) {
     ImuSample sample = witness.motion.imu(t);
     sample.accel /= 9.80665;
@@ -116,75 +77,8 @@ TEST(ImuJudge, TurnsGIntoMetresPerSquareSecond) {
   EXPECT_THAT(witness.judge.findings(), ::testing::ElementsAre(::testing::HasSubstr("in g")));
 }
 
-TEST(ImuJudge, TurnsUnitsOfTheirOwnIntoItsOwn) {
-  for (const double unit : {1000.0, 939.65, 0.05}) {
-    Witness witness;
-    witness.reading = [&](double t) {
-      ImuSample sample = witness.motion.imu(t);
-      sample.gyro *= unit;
-      return sample;
-    };
-    EXPECT_EQ(witness.verdict(6.0), ImuVerdict::kMended) << unit;
-    EXPECT_THAT(
-        witness.judge.findings(),
-        ::testing::ElementsAre(
-            ::testing::HasSubstr(unit > 1.0 ? "milliradians" : "a unit of its own")));
-    const ImuSample mended = witness.judge.mended(witness.reading(2.0));
-    EXPECT_LT((mended.gyro - witness.motion.imu(2.0).gyro).norm(), 0.1) << unit;
-  }
-  for (const double unit : {101.97, 100.0, 1670.7}) {
-    Witness witness;
-    witness.reading = [&](double t) {
-      ImuSample sample = witness.motion.imu(t);
-      sample.accel *= unit;
-      return sample;
-    };
-    EXPECT_EQ(witness.verdict(3.0), ImuVerdict::kMended) << unit;
-    EXPECT_THAT(witness.judge.findings(), ::testing::ElementsAre(::testing::HasSubstr("counts")));
-    EXPECT_NEAR(witness.judge.mended(witness.reading(2.0)).accel.norm(), 9.81, 1.5) << unit;
-  }
-}
-
-TEST(ImuJudge, SwapsBackWhatTheDriverHasSwapped) {
-  Witness witness;
-  for (int i = 0; i < 30; ++i) {
-    witness.judge.add({0.01 * i, {0.0, 0.02, 9.8}, {0.01, 0.0, 0.0}});
-  }
-  EXPECT_THAT(witness.judge.findings(), ::testing::ElementsAre(::testing::HasSubstr("swapped")));
-  const ImuSample mended = witness.judge.mended({1.0, {0.0, 0.0, 9.8}, {0.3, 0.0, 0.0}});
-  EXPECT_EQ(mended.accel, Eigen::Vector3d(0.0, 0.0, 9.8));
-  EXPECT_EQ(mended.gyro, Eigen::Vector3d(0.3, 0.0, 0.0));
-}
-
-TEST(ImuJudge, NamesTheAxesOfALeftHandedGyroscope) {
-  Eigen::Matrix3d turned = Eigen::Vector3d(-1.0, 1.0, 1.0).asDiagonal();
-  Eigen::Matrix3d swapped;
-  swapped << 0, 1, 0, 1, 0, 0, 0, 0, 1;
-  for (const auto& [axes, name] : {std::pair{turned, "(-x, y, z)"}, {swapped, "(y, x, z)"}}) {
-    Witness witness;
-    witness.reading = [&witness, &axes = axes](double t) {
-      ImuSample sample = witness.motion.imu(t);
-      sample.gyro = (axes * sample.gyro).eval();
-      return sample;
-    };
-    EXPECT_EQ(witness.verdict(8.0), ImuVerdict::kUnusable);
-    EXPECT_THAT(witness.judge.findings()[0], ::testing::HasSubstr(name));
-  }
-}
-
-TEST(ImuJudge, NamesScansThatAreAMirrorImage) {
-  for (int axis = 0; axis < 3; ++axis) {
-    Witness witness;
-    Pose mirror = Pose::Identity();
-    mirror.linear()(axis, axis) = -1.0;
-    witness.mirror = mirror;
-    EXPECT_EQ(witness.verdict(12.0), ImuVerdict::kUnusable);
-    EXPECT_THAT(witness.judge.findings()[0], ::testing::HasSubstr("mirror image")) << axis;
-  }
-}
-
 TEST(ImuJudge, TurnsAWrongSignRound) {
-  Witness witness;
+  ImuWitness witness;
   witness.reading = [&](double t) {
     ImuSample sample = witness.motion.imu(t);
     sample.accel = -sample.accel;
@@ -198,7 +92,7 @@ TEST(ImuJudge, TurnsAWrongSignRound) {
 
 TEST(ImuJudge, TellsAScaleFromABiasOnceItMoves) {
   for (const bool is_scale : {false, true}) {
-    Witness witness;
+    ImuWitness witness;
     witness.judge.judge_rest({0.0, 0.0, 1.15 * 9.81});
     ImuVerdict verdict = ImuVerdict::kUnknown;
     for (int i = 0; i < 9000 && verdict != ImuVerdict::kMended; ++i) {
@@ -225,7 +119,7 @@ TEST(ImuJudge, TellsAScaleFromABiasOnceItMoves) {
 
 TEST(ImuJudge, MissesGravityThatTheDriverRemoved) {
   for (const double share : {0.0, 1.0}) {
-    Witness witness;
+    ImuWitness witness;
     witness.reading = [&](double t) {
       ImuSample sample = witness.motion.imu(t);
       const Eigen::Vector3d up = witness.motion.pose(t).linear().transpose().col(2);
@@ -240,7 +134,7 @@ TEST(ImuJudge, MissesGravityThatTheDriverRemoved) {
 TEST(ImuJudge, FindsTheRotationOfAnExtrinsicThatIsNotGiven) {
   for (const Eigen::Vector3d& turn :
        {Eigen::Vector3d(3.14159, 0.0, 0.0), Eigen::Vector3d(0.0, 1.2, -0.7)}) {
-    Witness witness;
+    ImuWitness witness;
     witness.T_body_lidar.linear() = so3_exp(turn);
     EXPECT_EQ(witness.verdict(8.0), ImuVerdict::kUnusable);
     const Eigen::Quaterniond q(witness.T_body_lidar.linear());
@@ -267,7 +161,7 @@ TEST(ImuJudge, FindsTheRotationOfAnExtrinsicThatIsNotGiven) {
 
 TEST(ImuJudge, FindsTheOffsetOfTheClocks) {
   for (const double late : {0.3, -0.25}) {
-    Witness witness;
+    ImuWitness witness;
     witness.motion.turning = 1.5;
     witness.reading = [&](double t) {
       ImuSample sample = witness.motion.imu(t - late);
@@ -286,7 +180,7 @@ TEST(ImuJudge, FindsTheOffsetOfTheClocks) {
 
 // Of another recording's readings some offset fits best in every stretch.
 TEST(ImuJudge, DoesNotMoveTheClockOnAndOn) {
-  Witness witness;
+  ImuWitness witness;
   witness.motion.turning = 1.5;
   witness.reading = [&](double t) {
     ImuSample sample = witness.motion.imu(t - 0.35);

@@ -28,12 +28,17 @@ def column(cloud, field) -> np.ndarray:
     return np.ndarray(shape, kind, data, field.offset, steps).ravel()
 
 
+def seconds_of(cloud) -> float:
+    return cloud.header.stamp.sec + 1e-9 * cloud.header.stamp.nanosec
+
+
 class CloudReader:
     """From the messages of a topic to points and their times. Keeps the unit of times that the
-    first scan tells."""
+    first scan tells, and to one LiDAR where two publish on the topic."""
 
     def __init__(self, unit: str = "auto"):
         self._seconds = UNITS.get(unit)
+        self._frame, self._stamp = None, 0.0
 
     def read(self, cloud) -> tuple[np.ndarray, np.ndarray]:
         """Positions (N, 3) [m] and times (N,) [s]; all equal to the stamp without a time field.
@@ -41,19 +46,27 @@ class CloudReader:
         Raises
         ------
         ValueError
-            Without x y z, or for a cloud that is shorter than it says.
+            Without x y z, for a cloud that is shorter than it says, or one of another frame while
+            those of the first one go on.
         """
+        self._check_frame(cloud.header.frame_id, seconds_of(cloud))
         fields = {field.name: field for field in cloud.fields if field.datatype in SCALARS}
         missing = [name for name in "xyz" if name not in fields]
         if missing:
             raise ValueError(f"the cloud has no field '{missing[0]}'")
         points = np.stack([column(cloud, fields[name]) for name in "xyz"], axis=1)
-        stamp = cloud.header.stamp.sec + 1e-9 * cloud.header.stamp.nanosec
+        stamp = seconds_of(cloud)
         name = next((name for name in TIME_FIELDS if name in fields), None)
         if name is None or len(points) == 0:
             return points, np.full(len(points), stamp)
         ticks = column(cloud, fields[name])
         return points, self._times(ticks.astype(np.float64), ticks.dtype.kind in "iu", stamp)
+
+    def _check_frame(self, frame: str, stamp: float) -> None:
+        gone = 1.0  # a frame that has not come for so long has a new name [s]
+        if self._frame not in (None, frame) and abs(stamp - self._stamp) < gone:
+            raise ValueError(f"is of frame '{frame}', not '{self._frame}' as those before: two LiDARs on one topic")
+        self._frame, self._stamp = frame, stamp
 
     def _times(self, ticks, is_whole, stamp):
         finite = ticks[np.isfinite(ticks)]

@@ -215,6 +215,18 @@ def test_refuses_a_cloud_that_is_shorter_than_it_says():
         CloudReader().read(cloud)
 
 
+def test_keeps_to_one_of_two_lidars_while_it_goes_on():
+    reader = CloudReader()
+    columns = {name: np.zeros(5, "f4") for name in "xyz"}
+    read = lambda time, frame: reader.read(cloud_message(stamp_of(time), frame, columns))
+    read(1.0, "front")
+    for time in (1.05, 1.1, 1.2):
+        with pytest.raises(ValueError, match="of frame 'rear', not 'front'.*two LiDARs"):
+            read(time, "rear")
+        read(time, "front")
+    read(2.5, "renamed")
+
+
 def test_findings_are_said_once_whatever_their_numbers():
     watch = FindingWatch()
     assert watch.new_ones(0.0, ["the clock is 12 ms late"]) == []

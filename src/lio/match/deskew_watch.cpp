@@ -50,17 +50,23 @@ std::optional<Plane> plane_near(
 void DeskewWatch::add(
     const LioMap& map,
     const DeskewedKeypoints& keypoints,
-    const Pose& T_map_lidar,
+    const Pose& T_map_body,
+    const Pose& T_body_lidar,
     const SweepMotion& motion) {
   constexpr double kMinTurn = 0.02;  // within the sweep [rad]
-  constexpr std::size_t kMaxPoints = 500;
+  constexpr std::size_t kMaxPoints = 150;
   constexpr double kSpread = 0.03;  // of residuals that count [m]
   const auto oldest = std::max_element(keypoints.ages.begin(), keypoints.ages.end());
   if (scans_ >= kMaxScans || oldest == keypoints.ages.end() ||
       motion.rate.norm() * static_cast<double>(*oldest) < kMinTurn) {
     return;
   }
+  const Pose T_map_lidar = T_map_body * T_body_lidar;
   const Eigen::Matrix3d R = T_map_lidar.linear();
+  const Eigen::Matrix3d R_lidar_body = T_body_lidar.linear().transpose();
+  const Eigen::Vector3d rate = R_lidar_body * motion.rate;
+  const Eigen::Vector3d velocity =
+      R_lidar_body * (motion.velocity + motion.rate.cross(T_body_lidar.translation()));
   LioMap::QueryContext context;
   Matrix A = Matrix::Zero();
   Row b = Row::Zero();
@@ -79,7 +85,7 @@ void DeskewWatch::add(
     const double distance = plane->normal.dot(T_map_lidar * p - plane->centroid);
     const double age = static_cast<double>(keypoints.ages[i]);
     Row h;
-    h << n, p.cross(n), -age * n.dot(motion.velocity + motion.rate.cross(p));
+    h << n, p.cross(n), -age * n.dot(velocity + rate.cross(p));
     const double weight = 1.0 / (1.0 + distance * distance / (kSpread * kSpread));
     A += weight * h * h.transpose();
     b += weight * distance * h;

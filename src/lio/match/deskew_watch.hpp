@@ -19,7 +19,7 @@ struct DeskewedKeypoints {
   const std::vector<float>& ages;               ///< scan's end - time of the point [s]
 };
 
-/// How the LiDAR moves during a sweep, in the scan frame.
+/// How a frame moves during a sweep, by its own axes.
 struct SweepMotion {
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s]
   Eigen::Vector3d rate = Eigen::Vector3d::Zero();      ///< [rad/s]
@@ -31,12 +31,14 @@ struct SweepMotion {
 /// backwards.
 class DeskewWatch {
  public:
-  /// Takes a scan before it enters `map`, in which it was found at `T_map_lidar`. One that hardly
-  /// turns says nothing, nor do more than a hundred.
+  /// Takes a scan before it enters `map`, in which its LiDAR was found at T_map_body *
+  /// T_body_lidar, while the body moved by `motion`. One that hardly turns says nothing, nor do
+  /// more than a hundred.
   void add(
       const LioMap& map,
       const DeskewedKeypoints& keypoints,
-      const Pose& T_map_lidar,
+      const Pose& T_map_body,
+      const Pose& T_body_lidar,
       const SweepMotion& motion);
 
   /// One line, once the share is clearly another; "" before.

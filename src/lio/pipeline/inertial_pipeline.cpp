@@ -223,16 +223,13 @@ void InertialPipeline::match(FrameResult& result) {
 
 void InertialPipeline::watch_deskewing() {
   const NavState& state = filter_->state();
-  const Eigen::Matrix3d R_lidar_body = state.T_body_lidar.linear().transpose();
-  const Eigen::Vector3d& rate = motion_.rate();
-  const Eigen::Vector3d velocity = state.T_world_body.linear().transpose() * motion_.velocity() +
-                                   rate.cross(state.T_body_lidar.translation());
-  pick(prepared_.scan.points, prepared_.keypoints, key_points_);
+  pick(prepared_.scan.points, prepared_.keypoints, key_points_);  // where the match has moved them
   alone_.deskew_watch().add(
       *map_,
       {key_points_, key_normals_, key_ages_},
-      state.T_world_lidar(),
-      {R_lidar_body * velocity, R_lidar_body * rate});
+      state.T_world_body,
+      state.T_body_lidar,
+      {state.T_world_body.linear().transpose() * motion_.velocity(), motion_.rate()});
 }
 
 // Every later pose will be one in this scan's surfaces.

@@ -204,16 +204,13 @@ void LidarOdometry::choose_keypoints(const Normals& normals) {
 }
 
 void LidarOdometry::watch_deskewing(const Pose& T_map_lidar) {
-  const Eigen::Matrix3d R_lidar_body = options_.T_body_lidar.linear().transpose();
-  const Eigen::Vector3d rate = -predicted_.gyro_bias;
-  const Eigen::Vector3d velocity =
-      predicted_.T_world_body.linear().transpose() * predicted_.velocity +
-      rate.cross(options_.T_body_lidar.translation());
+  const Eigen::Matrix3d R_body_map = predicted_.T_world_body.linear().transpose();
   deskew_watch_.add(
       *map_,
       {key_points_, key_normals_, key_ages_},
-      T_map_lidar,
-      {R_lidar_body * velocity, R_lidar_body * rate});
+      T_map_lidar * options_.T_body_lidar.inverse(),
+      options_.T_body_lidar,
+      {R_body_map * predicted_.velocity, -predicted_.gyro_bias});
 }
 
 bool LidarOdometry::is_believable(const AlignResult& result) const {
