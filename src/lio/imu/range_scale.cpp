@@ -20,11 +20,7 @@ void RangeScale::weigh(const MotionHistory& history, double duration, double gra
       !is_about(fit->gravity.norm() / fit->accel_scale, gravity, kGravityError)) {
     return;
   }
-  const double weight = 1.0 / (fit->accel_scale_deviation * fit->accel_scale_deviation);
-  ++motions_;
-  weight_ += weight;
-  sum_ += weight * fit->accel_scale;
-  sum_squares_ += weight * fit->accel_scale * fit->accel_scale;
+  factor_.add(fit->accel_scale, 1.0 / (fit->accel_scale_deviation * fit->accel_scale_deviation));
 }
 
 std::string RangeScale::finding() const {
@@ -32,13 +28,14 @@ std::string RangeScale::finding() const {
   // Poses of a VLP-16 in small rooms give 0.95 with right ranges.
   constexpr double kMinError = 0.08;
   constexpr double kDeviations = 5.0;
-  if (motions_ < kFewest) {
+  if (factor_.count() < kFewest) {
     return "";
   }
-  const double factor = sum_ / weight_;
-  const double sq_spread = std::max(0.0, sum_squares_ - factor * sum_);
-  const double spread = std::max(1.0, sq_spread / static_cast<double>(motions_ - 1));
-  const double deviation = std::sqrt(spread / weight_);
+  const double factor = factor_.mean();
+  // Of each motion on its own, and as much more as they differ by more than that.
+  const auto freedoms = static_cast<double>(factor_.count() - 1);
+  const double excess = std::max(1.0, factor_.variance() * factor_.weight() / freedoms);
+  const double deviation = std::sqrt(excess / factor_.weight());
   if (std::abs(factor - 1.0) < std::max(kMinError, kDeviations * deviation)) {
     return "";
   }

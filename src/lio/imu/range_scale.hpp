@@ -2,10 +2,10 @@
 // Copyright (c) 2026 The nvm authors
 #pragma once
 
-#include <cstddef>
 #include <string>
 
 #include "lio/imu/motion_history.hpp"
+#include "lio/state/weighted_mean.hpp"
 
 namespace nvm::lio {
 
@@ -21,9 +21,7 @@ class RangeScale {
   std::string finding() const;
 
  private:
-  std::size_t motions_ = 0;
-  double weight_ = 0.0;                   ///< of all of them
-  double sum_ = 0.0, sum_squares_ = 0.0;  ///< weighted, of the factor
+  WeightedMean factor_;
 };
 
 }  // namespace nvm::lio

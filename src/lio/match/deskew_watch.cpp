@@ -16,8 +16,6 @@ namespace nvm::lio {
 
 namespace {
 
-constexpr std::size_t kMaxScans = 100;
-
 /// Pose of the scan, then the share of deskewing.
 constexpr int kUnknowns = 7;
 using Row = Eigen::Matrix<double, kUnknowns, 1>;
@@ -45,31 +43,24 @@ std::optional<Plane> plane_near(
   return is_flat ? plane : std::nullopt;
 }
 
-}  // namespace
+struct Equations {
+  Matrix matrix = Matrix::Zero();
+  Row vector = Row::Zero();
+  std::size_t count = 0;
+};
 
-void DeskewWatch::add(
+/// Of distances of the keypoints from the map's planes, to first order around the pose and all of
+/// deskewing. `motion` of the LiDAR.
+Equations equations(
     const LioMap& map,
     const DeskewedKeypoints& keypoints,
-    const Pose& T_map_body,
-    const Pose& T_body_lidar,
+    const Pose& T_map_lidar,
     const SweepMotion& motion) {
-  constexpr double kMinTurn = 0.02;  // within the sweep [rad]
   constexpr std::size_t kMaxPoints = 150;
   constexpr double kSpread = 0.03;  // of residuals that count [m]
-  const auto oldest = std::max_element(keypoints.ages.begin(), keypoints.ages.end());
-  if (scans_ >= kMaxScans || oldest == keypoints.ages.end() ||
-      motion.rate.norm() * static_cast<double>(*oldest) < kMinTurn) {
-    return;
-  }
-  const Pose T_map_lidar = T_map_body * T_body_lidar;
   const Eigen::Matrix3d R = T_map_lidar.linear();
-  const Eigen::Matrix3d R_lidar_body = T_body_lidar.linear().transpose();
-  const Eigen::Vector3d rate = R_lidar_body * motion.rate;
-  const Eigen::Vector3d velocity =
-      R_lidar_body * (motion.velocity + motion.rate.cross(T_body_lidar.translation()));
   LioMap::QueryContext context;
-  Matrix A = Matrix::Zero();
-  Row b = Row::Zero();
+  Equations equations;
   const std::size_t stride = keypoints.points.size() / kMaxPoints + 1;
   for (std::size_t i = 0; i < keypoints.points.size(); i += stride) {
     if (is_sighting(keypoints.normals[i])) {
@@ -83,25 +74,46 @@ void DeskewWatch::add(
     }
     const Eigen::Vector3d n = R.transpose() * plane->normal;
     const double distance = plane->normal.dot(T_map_lidar * p - plane->centroid);
-    const double age = static_cast<double>(keypoints.ages[i]);
+    const auto age = static_cast<double>(keypoints.ages[i]);
     Row h;
-    h << n, p.cross(n), -age * n.dot(velocity + rate.cross(p));
+    h << n, p.cross(n), -age * n.dot(motion.velocity + motion.rate.cross(p));
     const double weight = 1.0 / (1.0 + distance * distance / (kSpread * kSpread));
-    A += weight * h * h.transpose();
-    b += weight * distance * h;
+    equations.matrix += weight * h * h.transpose();
+    equations.vector += weight * distance * h;
+    ++equations.count;
   }
+  return equations;
+}
+
+}  // namespace
+
+void DeskewWatch::add(
+    const LioMap& map,
+    const DeskewedKeypoints& keypoints,
+    const Pose& T_map_body,
+    const Pose& T_body_lidar,
+    const SweepMotion& motion) {
+  constexpr std::size_t kMaxScans = 100;
+  constexpr std::size_t kFewest = 30;  // points
+  constexpr double kMinTurn = 0.02;    // within the sweep [rad]
+  const auto oldest = std::max_element(keypoints.ages.begin(), keypoints.ages.end());
+  if (share_.count() >= kMaxScans || oldest == keypoints.ages.end() ||
+      motion.rate.norm() * static_cast<double>(*oldest) < kMinTurn) {
+    return;
+  }
+  const Eigen::Matrix3d R_lidar_body = T_body_lidar.linear().transpose();
+  const SweepMotion of_lidar{
+      R_lidar_body * (motion.velocity + motion.rate.cross(T_body_lidar.translation())),
+      R_lidar_body * motion.rate};
+  const auto [A, b, count] = equations(map, keypoints, T_map_body * T_body_lidar, of_lidar);
+  // The pose is eliminated, whatever it is.
   const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> pose(A.topLeftCorner<6, 6>());
   const Eigen::Matrix<double, 6, 1> a = pose.solve(A.topRightCorner<6, 1>());
   const double weight = A(6, 6) - a.dot(A.topRightCorner<6, 1>());
-  const double excess = (b[6] - a.dot(b.head<6>())) / weight;
-  if (!(weight > 0.0) || !std::isfinite(excess)) {
-    return;
+  const double share = 1.0 - (b[6] - a.dot(b.head<6>())) / weight;
+  if (count >= kFewest && weight > 0.0 && std::isfinite(share)) {
+    share_.add(share, weight);
   }
-  const double share = 1.0 - excess;
-  ++scans_;
-  weight_ += weight;
-  sum_ += weight * share;
-  sum_squares_ += weight * share * share;
 }
 
 // On worlds of two simulators with right times, with an IMU and without, the shares of runs lay
@@ -111,19 +123,18 @@ std::string DeskewWatch::finding() const {
   constexpr std::size_t kFewest = 10;
   constexpr double kMinError = 0.06;
   constexpr double kDeviations = 5.0;
-  if (scans_ < kFewest) {
+  if (share_.count() < kFewest) {
     return "";
   }
-  const double share = sum_ / weight_;
-  const double sq_spread = std::max(0.0, sum_squares_ / weight_ - share * share);
-  const double deviation = std::sqrt(sq_spread / static_cast<double>(scans_));
+  const double share = share_.mean();
+  const double deviation = std::sqrt(share_.variance() / static_cast<double>(share_.count()));
   if (std::abs(share - 1.0) < std::max(kMinError, kDeviations * deviation)) {
     return "";
   }
   const std::string seen = printed(
       "the points do not lie where their times put them: %zu scans that turn fit the map better "
       "when deskewing moves their points %s: ",
-      scans_,
+      share_.count(),
       share < 1.0 ? "less" : "more");
   return seen +
          (share < 1.0

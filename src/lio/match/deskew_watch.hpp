@@ -3,11 +3,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstddef>
 #include <string>
 #include <vector>
 
 #include "lio/map/lio_map.hpp"
+#include "lio/state/weighted_mean.hpp"
 #include "nvm/geometry/pose.hpp"
 
 namespace nvm::lio {
@@ -45,10 +45,7 @@ class DeskewWatch {
   std::string finding() const;
 
  private:
-  std::size_t scans_ = 0;
-  double weight_ = 0.0;       ///< of all scans, squares of metres
-  double sum_ = 0.0;          ///< weighted, of the share
-  double sum_squares_ = 0.0;  ///< weighted
+  WeightedMean share_;  ///< of the scans
 };
 
 }  // namespace nvm::lio
