@@ -119,6 +119,9 @@ class Recording:
         except ImportError as error:
             raise BagError(f"{path}: bags are read by rosbags: pip install rosbags") from error
         self.path = pathlib.Path(path)
+        others = list(self.path.glob("*.bag")) if self.path.is_dir() else []
+        if others and bags_of(self.path)[0].suffix in ROS2:
+            raise BagError(f"{path}: holds bags of ROS 1 ({others[0].name}) and of ROS 2: name one of them")
         folder = self.path.parent
         is_part = self.path.suffix != ".bag" and self.path.is_file() and bags_of(folder) == [folder]
         bags = [folder] if is_part else bags_of(self.path) or [self.path]

@@ -17,6 +17,7 @@ import signal
 import struct
 import subprocess
 import sys
+import threading
 
 from . import _nvm
 from .bags import BagError, Recording, is_bag, is_ros1
@@ -62,7 +63,7 @@ def run_program(arguments: list[str], keeps: tuple[int, ...] = ()) -> int:
     program = find_program(arguments[0])
     bags = [i for i, argument in enumerate(arguments) if i > 0 and is_bag(argument)]
     if not bags or arguments[0] not in ("run", "map"):
-        return exit_code(subprocess.run([program, *arguments], pass_fds=keeps, check=False).returncode)
+        return run_alone([program, *arguments], keeps)
     before, bag, after = arguments[: bags[0]], arguments[bags[0]], arguments[bags[0] + 1 :]
     settings = input_settings(program, before + after)
     try:
@@ -71,13 +72,35 @@ def run_program(arguments: list[str], keeps: tuple[int, ...] = ()) -> int:
         if not is_ros1(bag):
             raise
         print(f"nvm: note: {error}; the program reads what there is", file=sys.stderr)
-        return exit_code(subprocess.run([program, *arguments], pass_fds=keeps, check=False).returncode)
+        return run_alone([program, *arguments], keeps)
     with recording:
         choice = choose(recording, settings["lidar_topic"], settings["imu_topic"])
         for reason in choice.reasons:
             print(f"nvm: note: {reason}", file=sys.stderr)
         chosen = choice_arguments(choice, settings)
         return feed([program, *before], [*after, *chosen], keeps, recording, choice)
+
+
+def run_alone(command: list[str], keeps: tuple[int, ...]) -> int:
+    """Runs a command that needs nothing from here, and returns its exit code."""
+    with started(command, keeps) as process:
+        return exit_code(process.wait())
+
+
+@contextlib.contextmanager
+def started(command: list[str], keeps: tuple[int, ...]):
+    """A program that ends a run well when it is interrupted, and is waited for. It is in a session of its
+    own, so that a signal reaches it once, whether it came to this process or to all of a terminal."""
+    signals = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+    with subprocess.Popen(command, pass_fds=keeps, start_new_session=True) as process:
+        is_main = threading.current_thread() is threading.main_thread()
+        forward = lambda number, _: process.send_signal(number)
+        handlers = {number: signal.signal(number, forward) for number in signals} if is_main else {}
+        try:
+            yield process
+        finally:
+            for number, handler in handlers.items():
+                signal.signal(number, handler)
 
 
 def exit_code(code: int) -> int:
@@ -113,15 +136,10 @@ def feed(before: list[str], after: list[str], keeps, recording: Recording, choic
     with contextlib.suppress(OSError):  # a system may allow less
         fcntl.fcntl(write_end, getattr(fcntl, "F_SETPIPE_SZ", 1031), PIPE_SIZE)
     command = [*before, f"/dev/fd/{read_end}", *after]
-    with subprocess.Popen(command, pass_fds=[read_end, *keeps]) as process:
+    with started(command, (read_end, *keeps)) as process:
         os.close(read_end)
-        # The program ends a run well when it is interrupted: it is waited for.
-        handler = signal.signal(signal.SIGINT, lambda *_: None)
-        try:
-            problem = write_messages(write_end, recording, choice)
-            code = process.wait()
-        finally:
-            signal.signal(signal.SIGINT, handler)
+        problem = write_messages(write_end, recording, choice)
+        code = process.wait()
     if problem:
         print(f"nvm: {recording.path}: {problem}", file=sys.stderr)
         return exit_code(code) or 1

@@ -193,6 +193,14 @@ def test_what_is_no_bag_is_said_in_one_line(tmp_path):
     assert not is_bag(tmp_path / "folder")
 
 
+def test_a_folder_of_both_kinds_of_bags_is_refused(rng, tmp_path):
+    make = lambda m: iter([("/imu", IMU, 1.0, m.imu(1.0, (0, 0, 0), (0, 0, 9.81)))])
+    write(tmp_path / "old.bag", "bag", make)
+    (tmp_path / "new.mcap").write_bytes(b"")
+    with pytest.raises(BagError, match="of ROS 1 .old.bag. and of ROS 2: name one"):
+        Recording(tmp_path)
+
+
 def test_info_tells_what_is_there_and_what_would_be_read(rng, tmp_path, capsys):
     from nvm.cli import main
 

@@ -3,8 +3,11 @@
 """Every command of the program that the package brings, on a walk around a wall of 0.1 m, against its truth."""
 
 import json
+import os
+import signal
 import subprocess
 import sys
+import time
 
 import numpy as np
 import pytest
@@ -42,6 +45,29 @@ def test_an_interruption_is_no_traceback(monkeypatch):
 
     monkeypatch.setattr(cli, "is_bag", interrupted)
     assert cli.main(["info", "anything"]) == 130
+
+
+@pytest.mark.parametrize("send", [os.kill, os.killpg])
+def test_an_interruption_reaches_the_program_once(tmp_path, send):
+    program = tmp_path / "program"
+    program.write_text(
+        "#!/bin/sh\ncount=0\ntrap 'count=$((count + 1))' INT\necho started > started\n"
+        "for i in 1 2 3 4 5 6 7 8 9 10; do sleep 0.1; done\necho $count > count\nexit 130\n"
+    )
+    program.chmod(0o755)
+    process = subprocess.Popen(
+        [sys.executable, "-c", "import sys; from nvm.cli import main; sys.exit(main())", "run", "scans"],
+        cwd=tmp_path,
+        env=os.environ | {"NVM_PROGRAM": str(program)},
+        start_new_session=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # else ignored beside others
+    )
+    while not (tmp_path / "started").exists():
+        time.sleep(0.02)
+    time.sleep(0.1)
+    send(process.pid, signal.SIGINT)
+    assert process.wait(20) == 130
+    assert (tmp_path / "count").read_text() == "1\n"
 
 
 def test_the_viewer_needs_no_matplotlib():
