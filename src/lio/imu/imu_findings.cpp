@@ -39,10 +39,8 @@ std::string rotation_finding(const TurnComparison& turns, const Pose& T_body_lid
 std::string mirrored_scans_finding(const Eigen::Vector3d& normal) {
   return printed(
       "the scans are a mirror image along (%.2f, %.2f, %.2f): gyroscope and accelerometer agree "
-      "with "
-      "them that way only; the scans alone are used, and poses and map are mirrored. Turn that "
-      "axis "
-      "of the points round in the LiDAR's driver",
+      "with them that way only; the scans alone are used, and poses and map are mirrored. Turn "
+      "that axis of the points round in the LiDAR's driver",
       std::abs(normal.x()),
       std::abs(normal.y()),
       std::abs(normal.z()));
@@ -66,8 +64,7 @@ std::string left_handed_finding(const Eigen::Matrix3d& reflection) {
 std::string gyro_scale_finding(double factor, double scale) {
   return printed(
       "the gyroscope turns by %.1f %% too %s for the scans: multiplied by %.4g (imu.gyro_scale "
-      "sets "
-      "another factor, or 1 for none)",
+      "sets another factor, or 1 for none)",
       100.0 * std::abs(1.0 / factor - 1.0),
       factor < 1.0 ? "much" : "little",
       scale);
@@ -131,9 +128,9 @@ std::string drift_finding(double first, double last) {
 
 std::string gravity_finding(double felt, double gravity) {
   return printed(
-      "the accelerometer feels %.2f m/s^2 of gravity, not %.2f: its driver removes gravity or "
-      "sends no accelerations; the scans alone are used. Record raw accelerations, or set "
-      "imu.accel_scale",
+      "the accelerometer feels %.2f m/s^2 of gravity, not %.2f: its driver removes gravity, "
+      "swaps accelerations and turn rates, or sends none; the scans alone are used. Record raw "
+      "accelerations, or set imu.accel_scale",
       felt,
       gravity);
 }

@@ -17,6 +17,7 @@ namespace nvm::lio {
 namespace {
 
 constexpr double kDegree = 0.017453292519943295;  // [rad]
+constexpr double kAgrees = 0.1;                   // a mismatch that is left by what explains it
 
 double angle_of(const Eigen::Matrix3d& rotation) { return so3_log(rotation).norm(); }
 
@@ -35,7 +36,6 @@ bool has_wrong_scale(const TurnComparison& turns) {
 
 /// Whether one set of axes is: then nearly all is explained that way, and less by a rotation.
 bool is_left_handed(const TurnComparison& turns) {
-  constexpr double kAgrees = 0.1;
   return turns.reflected_mismatch < std::min(kAgrees, 0.5 * turns.best_mismatch);
 }
 
@@ -99,7 +99,6 @@ void ImuJudge::mend_clock(double offset) {
 double ImuJudge::take_clock_offset() { return std::exchange(untaken_offset_, 0.0); }
 
 ImuVerdict ImuJudge::judge_turns(double max_mismatch, bool are_poses_apart) {
-  constexpr double kAgrees = 0.1;
   constexpr double kSmallTurn = 0.25;  // [rad]
   constexpr double kConclusive = 1.5;  // an offset of the clocks may yet explain less [rad]
   const std::optional<TurnComparison> turns = compare_turns(history_);
