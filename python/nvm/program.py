@@ -132,6 +132,7 @@ def choice_arguments(choice: Choice, settings: dict) -> list[str]:
 
 def feed(before: list[str], after: list[str], keeps, recording: Recording, choice: Choice) -> int:
     """Runs a command with the messages of a recording in the place between its arguments."""
+    _nvm.keep_freed_memory()  # the buffers of one cloud serve the next
     read_end, write_end = os.pipe()
     with contextlib.suppress(OSError):  # a system may allow less
         fcntl.fcntl(write_end, getattr(fcntl, "F_SETPIPE_SZ", 1031), PIPE_SIZE)

@@ -21,6 +21,7 @@
 #include "app/say.hpp"
 #include "app/simulate_command.hpp"
 #include "app/walls_command.hpp"
+#include "common/kept_memory.hpp"
 #include "config/nearest_name.hpp"
 #include "nvm/version.hpp"
 
@@ -120,6 +121,7 @@ int report(const std::string& message, int status) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  nvm::keep_freed_memory();
   std::signal(SIGXFSZ, SIG_IGN);  // a file that gets too large is an error like a full disk
   nvm::app::say_when_interrupted();
   try {
