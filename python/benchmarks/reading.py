@@ -26,7 +26,7 @@ from sequences import RECORD  # noqa: E402
 from nvm.program import find_program  # noqa: E402
 
 POINT = np.dtype([("x", "f4"), ("y", "f4"), ("z", "f4"), ("intensity", "f4"), ("t", "u4"), ("ring", "u2"), ("pad", "u2")])
-COMMAND = [sys.executable, "-c", "import sys; from nvm.cli import main; sys.exit(main())"]
+COMMAND = [sys.executable, "-c", "import sys; from nvm_command import main; sys.exit(main())"]
 OWN = "bag, the program's own reader"
 
 

@@ -11,7 +11,7 @@ import numpy as np
 def nvm(*arguments):
     """The command of the package, on the package that is tested."""
     return subprocess.run(
-        [sys.executable, "-c", "import sys; from nvm.cli import main; sys.exit(main())", *map(str, arguments)],
+        [sys.executable, "-c", "import sys; from nvm_command import main; sys.exit(main())", *map(str, arguments)],
         capture_output=True,
         text=True,
         timeout=300,

@@ -36,7 +36,6 @@ def walks(tmp_path_factory):
     return folder
 
 
-
 def test_an_interruption_is_no_traceback(monkeypatch):
     from nvm import cli
 
@@ -45,6 +44,32 @@ def test_an_interruption_is_no_traceback(monkeypatch):
 
     monkeypatch.setattr(cli, "is_bag", interrupted)
     assert cli.main(["info", "anything"]) == 130
+
+
+INTERRUPTED = """
+import os, signal, sys
+
+class Interrupter:
+    def find_spec(self, name, *_):
+        if name == module:
+            os.kill(os.getpid(), signal.SIGINT)
+
+module = sys.argv.pop()
+sys.meta_path.insert(0, Interrupter())
+from nvm_command import main
+sys.exit(main())
+"""
+
+
+@pytest.mark.parametrize("module", ["nvm", "nvm._nvm", "numpy", "nvm.cli", "rosbags.highlevel"])
+def test_an_interruption_of_imports_is_no_traceback(module):
+    done = subprocess.run(
+        [sys.executable, "-c", INTERRUPTED, "info", "nothing.bag", module],
+        capture_output=True,
+        text=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # else ignored beside others
+    )
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "")
 
 
 @pytest.mark.parametrize("send", [os.kill, os.killpg])
@@ -56,7 +81,7 @@ def test_an_interruption_reaches_the_program_once(tmp_path, send):
     )
     program.chmod(0o755)
     process = subprocess.Popen(
-        [sys.executable, "-c", "import sys; from nvm.cli import main; sys.exit(main())", "run", "scans"],
+        [sys.executable, "-c", "import sys; from nvm_command import main; sys.exit(main())", "run", "scans"],
         cwd=tmp_path,
         env=os.environ | {"NVM_PROGRAM": str(program)},
         start_new_session=True,
