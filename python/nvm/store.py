@@ -21,6 +21,7 @@ FORMAT = "nvm-store"
 VERSION = 1
 INDEX = "index.json"
 FOLDER = "tiles"
+FARTHEST = 1e9  # [m], beyond any tile
 
 Tile = tuple[int, int, int]
 
@@ -117,12 +118,12 @@ class Store:
             [m]; NaN where there are fewer than k.
         counts : (M,) int64
         """
+        # An empty map finds nothing, and refuses what is to be refused.
+        distances, _, counts = VoxelMap(capacity=1).nearest(points, normals, k, max_distance)
         points = np.asarray(points, dtype=float).reshape(-1, 3)
-        normals = None if normals is None else np.asarray(normals, dtype=float).reshape(points.shape)
-        distances = np.full((len(points), k), np.inf)
-        positions = np.full((len(points), k, 3), np.nan)
-        counts = np.zeros(len(points), dtype=np.int64)
-        usable = np.flatnonzero(np.isfinite(points).all(axis=1))
+        normals = None if normals is None else np.asarray(normals, dtype=float)
+        positions = np.full((*distances.shape, 3), np.nan)
+        usable = np.flatnonzero((np.abs(points) < FARTHEST).all(axis=1))
         tiles, inverse = np.unique(self.tile_of(points[usable]), axis=0, return_inverse=True)
         for i, tile in enumerate(map(tuple, tiles.tolist())):
             if tile not in self.tiles:

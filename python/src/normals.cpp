@@ -96,7 +96,8 @@ struct Estimator {
 };
 
 /// One point as often as it is asked for, or one per point.
-NormalResult estimate(Estimator& self, nb::handle points, nb::handle viewpoint, int threads) {
+NormalResult estimate(
+    Estimator& self, nb::handle points, nb::handle viewpoint, const Integer& threads) {
   constexpr std::size_t kWorthThreads = 4096;
   const Vectors positions(points, "points");
   const Executor executor = make_executor(threads, positions.size(), kWorthThreads);
@@ -116,7 +117,7 @@ NormalResult estimate(Estimator& self, nb::handle points, nb::handle viewpoint, 
 
 Array<float> estimate_normals(nb::handle points, nb::handle viewpoint, const nb::kwargs& options) {
   Estimator estimator(options_from<NormalOptions>(options));
-  return to_array(estimate(estimator, points, viewpoint, 0).normals);
+  return to_array(estimate(estimator, points, viewpoint, {nb::int_(0)}).normals);
 }
 
 Array<float> directions(nb::handle points, nb::handle origin) {

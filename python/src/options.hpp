@@ -5,12 +5,17 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/string.h>
 
+#include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <sstream>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 #include "nvm/map/map_options.hpp"
 #include "option_lists.hpp"
+#include "whole_number.hpp"
 
 namespace nvm::python {
 
@@ -19,12 +24,35 @@ namespace nb = nanobind;
 namespace detail {
 
 template <class Value>
-bool assign(nb::handle given, Value& value) {
-  return nb::try_cast<Value>(given, value);
+constexpr bool kIsWhole = std::is_integral_v<Value> && !std::is_same_v<Value, bool>;
+
+/// The least and the greatest value of a whole number: those of the option where it has a range,
+/// else of its type.
+template <class Value>
+std::pair<std::int64_t, std::int64_t> range_of(const OptionInfo& info) {
+  if (info.min < info.max) {
+    return {static_cast<std::int64_t>(info.min), static_cast<std::int64_t>(info.max)};
+  }
+  constexpr std::uint64_t kMost = std::numeric_limits<std::int64_t>::max();
+  const auto max = std::min(kMost, static_cast<std::uint64_t>(std::numeric_limits<Value>::max()));
+  return {
+      static_cast<std::int64_t>(std::numeric_limits<Value>::min()), static_cast<std::int64_t>(max)};
+}
+
+template <class Value>
+bool assign(nb::handle given, const OptionInfo& info, Value& value) {
+  if constexpr (kIsWhole<Value>) {
+    const auto [min, max] = range_of<Value>(info);
+    const auto number = whole_number(given, min, max);
+    value = number ? static_cast<Value>(*number) : value;
+    return number.has_value();
+  } else {
+    return nb::try_cast<Value>(given, value);
+  }
 }
 
 template <class Enum, class Choices>
-bool assign(nb::handle given, Enum& value, const Choices& choices) {
+bool assign(nb::handle given, const OptionInfo& /*info*/, Enum& value, const Choices& choices) {
   std::string name;
   if (!nb::try_cast<std::string>(given, name)) {
     return false;
@@ -38,9 +66,16 @@ bool assign(nb::handle given, Enum& value, const Choices& choices) {
   return false;
 }
 
-inline std::string allowed() { return "a number"; }
-template <class Choices>
-std::string allowed(const Choices& choices) {
+template <class Value>
+std::string allowed(const OptionInfo& info, const Value& /*value*/) {
+  if constexpr (kIsWhole<Value>) {
+    const auto [min, max] = range_of<Value>(info);
+    return must_be_whole(min, max);
+  }
+  return std::is_same_v<Value, bool> ? "True or False" : "a number";
+}
+template <class Enum, class Choices>
+std::string allowed(const OptionInfo& /*info*/, const Enum& /*value*/, const Choices& choices) {
   std::string text = "one of";
   for (const auto& choice : choices) {
     text += std::string(" '") + choice.first + "'";
@@ -59,8 +94,8 @@ std::string limits(const OptionInfo& info, const Value& /*value*/) {
   return text.str();
 }
 template <class Enum, class Choices>
-std::string limits(const OptionInfo& /*info*/, const Enum& /*value*/, const Choices& choices) {
-  return ": " + allowed(choices) + ".";
+std::string limits(const OptionInfo& info, const Enum& value, const Choices& choices) {
+  return ": " + allowed(info, value, choices) + ".";
 }
 
 template <class Value>
@@ -91,10 +126,10 @@ Options options_from(const nb::kwargs& keywords) {
     }
     ++known;
     const nb::object given = keywords[text.name];
-    if (!detail::assign(given, value, choices...)) {
+    if (!detail::assign(given, text, value, choices...)) {
       const std::string message = std::string("nvm: ") + text.name + " = " +
                                   nb::repr(given).c_str() + " must be " +
-                                  detail::allowed(choices...);
+                                  detail::allowed(text, value, choices...);
       throw nb::value_error(message.c_str());
     }
   });

@@ -77,7 +77,7 @@ AlignResult align(
     nb::handle points,
     nb::handle normals,
     nb::handle T_map_scan,
-    int threads) {
+    const Integer& threads) {
   constexpr std::size_t kWorthThreads = 1024;
   const Vectors positions(points, "points");
   const Vectors directions(normals, "normals");

@@ -38,11 +38,11 @@ nb::tuple nearest(
     const SharedMap& self,
     nb::handle points,
     nb::handle normals,
-    std::size_t k,
+    const Integer& k,
     double max_distance,
-    int threads) {
+    const Integer& threads) {
   constexpr std::size_t kWorthThreads = 4096;
-  require(k >= 1 && k <= kMaxNeighbors, "k", k, "from 1 to 64");
+  const auto count = static_cast<std::size_t>(k.from("k", 1, kMaxNeighbors));
   require(max_distance >= 0.0, "max_distance", max_distance, "zero or more [m]");
   const Vectors positions(points, "points");
   std::optional<Vectors> directions;
@@ -54,11 +54,11 @@ nb::tuple nearest(
       self,
       positions,
       directions ? &*directions : nullptr,
-      {k, max_distance},
+      {count, max_distance},
       make_executor(threads, positions.size(), kWorthThreads));
   return nb::make_tuple(
-      to_array(std::move(answers.distances), positions.size(), k),
-      to_array(std::move(answers.rows), positions.size(), k),
+      to_array(std::move(answers.distances), positions.size(), count),
+      to_array(std::move(answers.rows), positions.size(), count),
       to_array(std::move(answers.counts), positions.size()));
 }
 

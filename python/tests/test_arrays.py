@@ -124,7 +124,7 @@ def test_unequal_lengths_are_refused(cloud):
         nvm.estimate_normals(points, normals[1:])
 
 
-@pytest.mark.parametrize("k, distance", [(0, 1), (65, 1), (5, -1), (5, np.nan)])
+@pytest.mark.parametrize("k, distance", [(0, 1), (5, -1), (5, np.nan)])
 def test_impossible_searches_are_refused(cloud, k, distance):
     with pytest.raises(ValueError):
         nvm.VoxelMap().nearest(cloud[0], k=k, max_distance=distance)

@@ -74,7 +74,7 @@ def test_a_store_answers_as_one_map_would(alone, sessions):
 
 
 def test_queries_far_away_or_not_finite_find_nothing(alone):
-    distances, positions, counts = alone.nearest([[1e4, 0, 0], [np.nan, 0, 0]], k=2)
+    distances, positions, counts = alone.nearest([[1e4, 0, 0], [np.nan, 0, 0], [1e300, 0, 0]], k=2)
     assert np.isinf(distances).all() and np.isnan(positions).all() and not counts.any()
 
 
@@ -120,6 +120,10 @@ def test_bad_input_is_refused(sessions, alone, tmp_path):
         build(sessions, tmp_path / "small", tile_size=0.5, map_options=OPTIONS)
     with pytest.raises(RuntimeError, match="no store"):
         nvm.open_store(tmp_path)
+    with pytest.raises(ValueError, match="k = -1"):
+        alone.nearest(np.zeros((3, 3)), k=-1)
+    with pytest.raises(ValueError, match=r"shape \(N, 3\)"):
+        alone.nearest(np.zeros((3, 4)))
 
 
 def test_newer_and_damaged_indices_are_refused(alone, tmp_path):
