@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "lio/state/constant_velocity.hpp"
+#include "lio/state/motion_along.hpp"
 
 namespace nvm::app {
 
@@ -31,12 +31,7 @@ bool MapBuilder::add(const Scan& scan) {
   }
   end_.time = scan.t_end;
   end_.T_world_body = *end;
-  // A sweep that began before the first pose counts as made at rest.
-  lio::ConstantVelocity motion({scan.t_begin, pose_at(trajectory_, scan.t_begin).value_or(*end)});
-  if (scan.t_end > scan.t_begin) {
-    motion.add({scan.t_end, *end});
-  }
-  motion.sweep(scan.t_begin, scan.t_end, 0.0, segments_);
+  lio::motion_along(trajectory_, scan.t_begin, scan.t_end, segments_);
   deskew(scan, segments_, end_, returns_, scan_.scan);
   preparer_.prepare(scan_);
   inserted_.add(scan_.scan.size(), preparer_.insert(end_.T_world_lidar(), scan_, *map_));

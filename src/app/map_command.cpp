@@ -176,7 +176,8 @@ void add_map_command(CLI::App& app) {
   command->add_option(
       "--poses",
       arguments->poses,
-      "TUM file, or KITTI file with a line per scan: the pose of the body at each scan's end");
+      "TUM file, or KITTI file with a line per scan: the pose of the body at least at each scan's "
+      "end");
   command->add_option("--out", arguments->folder, "Folder of map.ply, map.nvm and trajectory.tum");
   add_run_options(*command, arguments->options);
   command->callback([arguments] {

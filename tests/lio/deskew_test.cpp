@@ -9,6 +9,7 @@
 
 #include "lio/analytic_motion.hpp"
 #include "lio/state/error_state_filter.hpp"
+#include "lio/state/motion_along.hpp"
 
 namespace nvm::lio {
 namespace {
@@ -77,6 +78,42 @@ TEST(Deskew, PutsEveryReturnWhereItIsSeenAtTheScansEnd) {
   EXPECT_LT((first_place - (kMotion.pose(4.0) * lidar_in_body()).translation()).norm(), 5e-5);
   EXPECT_NEAR(scan.ages.front(), 0.1F, 1e-6F);
   EXPECT_NEAR(scan.ages.back(), 0.0F, 1e-6F);
+}
+
+Predicted along(const Trajectory& poses, double begin, double end) {
+  Predicted predicted;
+  motion_along(poses, begin, end, predicted.segments);
+  predicted.end.time = end;
+  predicted.end.T_world_body = *pose_at(poses, end);
+  predicted.end.T_body_lidar = lidar_in_body();
+  return predicted;
+}
+
+// A sensor that sways does not go straight from one scan's end to the next one's.
+TEST(Deskew, KnownPosesBetweenTheScansEndsAreFollowed) {
+  Trajectory often;
+  for (int i = 0; i <= 20; ++i) {
+    often.push_back({4.0 + 0.01 * i, kMotion.pose(4.0 + 0.01 * i)});
+  }
+  const auto error = [](const Trajectory& poses) {
+    const Predicted predicted = along(poses, 4.0, 4.1);
+    DeskewedScan scan;
+    deskew(scan_of_landmarks(4.0, 4.1), predicted.segments, predicted.end, {}, scan);
+    return worst_error(scan, predicted.end.T_world_lidar());
+  };
+  EXPECT_LT(error(often), 1e-4);
+  EXPECT_GT(error({often.front(), often[10], often.back()}), 1e-3);
+}
+
+TEST(Deskew, KnownPosesStandStillBeforeTheFirstAndWithoutTime) {
+  const Trajectory poses{{4.05, kMotion.pose(4.05)}, {4.1, kMotion.pose(4.1)}};
+  const Predicted late = along(poses, 4.0, 4.1);
+  EXPECT_TRUE(late.segments.front().T_world_body.isApprox(kMotion.pose(4.05), 1e-12));
+  EXPECT_LT(late.segments.front().velocity.norm(), 1e-12);
+  EXPECT_GT(late.segments.back().velocity.norm(), 0.01);
+  const Predicted instant = along(poses, 4.1, 4.1);
+  ASSERT_EQ(instant.segments.size(), 1U);
+  EXPECT_TRUE(instant.segments.front().pose_at(4.1).isApprox(kMotion.pose(4.1), 1e-12));
 }
 
 TEST(Deskew, ACorrectedVelocityAndBiasUndoAWrongPrediction) {
