@@ -116,6 +116,17 @@ void say_notes(const survey::Survey& found, const io::MapCloud& cloud, double pl
         found.left_out,
         cloud.positions.size()));
   }
+  constexpr double kRough = 5e-4;  // [m]
+  if (found.rounding > kRough) {
+    say(fmt::format(
+        "note: so far from zero float32 coordinates are rounded to {:.0f} mm, and walls with them; "
+        "write the map with float64, or nearer to zero",
+        1e3 * found.rounding));
+  }
+  if (found.is_inside_out) {
+    say("note: normals seem to point into the walls instead of to where points were seen from; "
+        "with them turned around the list will be another");
+  }
   const survey::Plan plan = survey::make_plan(found, plan_height);
   if (plan.walls.empty() && plan.faces.empty()) {
     say(fmt::format("note: the plan is empty: nothing is {} m above the floor", plan_height));

@@ -45,6 +45,25 @@ Eigen::Vector3d middle_of(const std::vector<Eigen::Vector3d>& positions) {
   return middle;
 }
 
+/// How finely coordinates were written: in single precision, when all of them are such numbers.
+class Rounding {
+ public:
+  void add(const Eigen::Vector3d& p) {
+    for (const double coordinate : p) {
+      const auto number = static_cast<float>(coordinate);
+      is_single_ = is_single_ && static_cast<double>(number) == coordinate;
+      largest_ = std::max(largest_, std::abs(number));
+    }
+  }
+
+  /// Between neighbours of the largest [m]; 0 in double precision.
+  double step() const { return is_single_ ? std::nextafter(largest_, HUGE_VALF) - largest_ : 0.0; }
+
+ private:
+  bool is_single_ = true;
+  float largest_ = 0.0F;
+};
+
 /// A surface within a cell while its points are being gathered.
 struct Cluster {
   PlaneSums sums;
@@ -71,6 +90,7 @@ SurveyCloud survey_cloud(const io::MapCloud& cloud) {
   result.origin = middle_of(cloud.positions);
   result.positions.reserve(cloud.positions.size());
   result.normals.reserve(cloud.positions.size());
+  Rounding rounding;
   for (std::size_t i = 0; i < cloud.normals.size(); ++i) {
     const Eigen::Vector3d p = cloud.positions[i] - result.origin;
     const float length = cloud.normals[i].norm();
@@ -78,9 +98,11 @@ SurveyCloud survey_cloud(const io::MapCloud& cloud) {
         std::isfinite(length)) {
       result.positions.push_back(p);
       result.normals.push_back(cloud.normals[i] / length);
+      rounding.add(cloud.positions[i]);
     }
   }
   result.left_out = cloud.positions.size() - result.positions.size();
+  result.rounding = rounding.step();
   if (result.positions.empty()) {
     throw std::invalid_argument(
         "none of the " + std::to_string(cloud.positions.size()) +

@@ -20,6 +20,8 @@ struct SurveyCloud {
   std::vector<Eigen::Vector3f> normals;              ///< unit vectors
   std::size_t left_out = 0;  ///< points of the map without a position, without a normal, or more
                              ///< than 50 km from the middle
+  double rounding = 0.0;     ///< between neighbours of the largest coordinate, when all are float32
+                             ///< numbers; 0 when they are finer [m]
 };
 
 /// The usable points of `cloud`. Throws std::invalid_argument when none has a normal.

@@ -9,6 +9,7 @@
 #include "survey/coplanar.hpp"
 #include "survey/directions.hpp"
 #include "survey/face.hpp"
+#include "survey/inside_out.hpp"
 #include "survey/pairing.hpp"
 #include "survey/patch_grid.hpp"
 #include "survey/pose_evidence.hpp"
@@ -117,7 +118,9 @@ double bending(const Wall& wall, double noise) {
 double sq_uncertainty(const WallThickness& wall, const Survey& survey) {
   constexpr double kPriorBlocks = 20.0;  // how many of a wall's own outweigh those of all walls
   const double inflation = std::max(1.0, wall.scatter.inflation(survey.inflation, kPriorBlocks));
-  return inflation * wall.sq_noise + 2.0 * std::pow(std::max(survey.bend, survey.drift), 2);
+  const double sq_rounding = survey.rounding * survey.rounding / 12.0;
+  return inflation * wall.sq_noise +
+         2.0 * (std::pow(std::max(survey.bend, survey.drift), 2) + sq_rounding);
 }
 
 /// What keyframes tell of a wall.
@@ -146,6 +149,7 @@ Survey survey_of(
   survey.bend = std::sqrt(scatter.sq_bend());
   survey.patch_size = grid.size();
   survey.left_out = cloud.left_out;
+  survey.rounding = cloud.rounding;
   return survey;
 }
 
@@ -171,6 +175,7 @@ Survey survey_walls(
   const std::vector<Face> faces = find_faces(cloud, grid, directions, options);
   const MeasuredPairs measured = measure_pairs(cloud, faces, options);
   Survey survey = survey_of(cloud, grid, faces, measured, directions.up);
+  survey.is_inside_out = is_inside_out(faces, directions.up, options, !measured.pairs.empty());
   std::vector<WallSightings> sightings(measured.pairs.size());
   if (keyframes) {
     sightings = find_sightings(cloud, faces, measured.pairs, keyframes);

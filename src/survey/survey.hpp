@@ -85,14 +85,16 @@ struct Survey {
   std::vector<Wall> bodies;                       ///< columns and furniture
   std::vector<SurveyFace> faces;                  ///< single ones of min_area or more
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< unit vector
-  double floor = 0.0;        ///< lowest level face, along `up` [m]; or the lowest point
-  double noise = 0.0;        ///< of the points on their faces, about [m]
-  double inflation = 1.0;    ///< variance of a mean over what independent points would give
-  double bend = 0.0;         ///< of faces beyond the noise, RMS over half a metre [m]
-  double jitter = 0.0;       ///< standard deviation of a keyframe's pose [m]; 0 without keyframes
-  double drift = 0.0;        ///< and of what all keyframes of a pass share [m]
-  double patch_size = 0.0;   ///< that faces were grown with [m]
-  std::size_t left_out = 0;  ///< points without position or normal, or far from all others
+  double floor = 0.0;          ///< lowest level face, along `up` [m]; or the lowest point
+  double noise = 0.0;          ///< of the points on their faces, about [m]
+  double inflation = 1.0;      ///< variance of a mean over what independent points would give
+  double bend = 0.0;           ///< of faces beyond the noise, RMS over half a metre [m]
+  double jitter = 0.0;         ///< standard deviation of a keyframe's pose [m]; 0 without keyframes
+  double drift = 0.0;          ///< and of what all keyframes of a pass share [m]
+  double patch_size = 0.0;     ///< that faces were grown with [m]
+  double rounding = 0.0;       ///< of the coordinates, when all are float32 numbers [m]; else 0
+  bool is_inside_out = false;  ///< normals seem to point into the walls: nothing here is right
+  std::size_t left_out = 0;    ///< points without position or normal, or far from all others
 };
 
 /// Finds the walls in the points of `map`: planar faces grown from points and normals, joined

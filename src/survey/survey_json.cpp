@@ -90,6 +90,8 @@ std::string survey_json(const Survey& survey) {
   result["jitter"] = survey.jitter;
   result["drift"] = survey.drift;
   result["patch_size"] = survey.patch_size;
+  result["rounding"] = survey.rounding;
+  result["inside_out"] = survey.is_inside_out;
   result["left_out"] = survey.left_out;
   return result.dump(1) + "\n";
 }

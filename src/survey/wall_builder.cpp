@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -200,6 +201,20 @@ bool WallBuilder::is_before_a_wall(std::size_t index) const {
   return false;
 }
 
+double WallBuilder::shown_height(const FacePair& pair, const Face& side) const {
+  const PlaneFrame& frame = faces_[pair.first].frame;
+  const PlaneBox overlap = box_of(pair.overlap);
+  PlaneBox shown;
+  side.seen.for_each([&](int column, int row) {
+    const Eigen::Vector3d p = side.frame.point(side.seen.u(column + 0.5), side.seen.v(row + 0.5));
+    const double u = frame.coordinate_u(p);
+    if (u > overlap.min_u && u < overlap.max_u) {
+      shown.extend(u, frame.coordinate_v(p));
+    }
+  });
+  return shown.height() + side.seen.cell();
+}
+
 WallKind WallBuilder::kind(std::size_t index, const Wall& wall) const {
   const double slope = std::abs(faces_[pairs_[index].first].plane.normal.dot(up_));
   if (slope > kLevel) {
@@ -215,10 +230,17 @@ WallKind WallBuilder::kind(std::size_t index, const Wall& wall) const {
   if (is_thick_and_low || is_before_a_wall(index)) {
     return WallKind::kFurniture;
   }
-  if (wall.thickness <= 0.07 && wall.length < 1.3 && wall.height > 1.6 && wall.height < 2.4) {
+  // Of a leaf one side is often seen by half; of a closed one, one side is flush with its wall.
+  const FacePair& pair = pairs_[index];
+  const std::array<double, 3> heights{
+      wall.height, shown_height(pair, faces_[pair.first]), shown_height(pair, faces_[pair.second])};
+  const bool is_as_high_as_a_leaf =
+      std::any_of(heights.begin(), heights.end(), [](double h) { return h > 1.6 && h < 2.4; });
+  if (wall.thickness <= 0.07 && wall.length < 1.3 && is_as_high_as_a_leaf) {
     return WallKind::kDoor;
   }
-  return wall.height < 1.9 ? WallKind::kPartition : WallKind::kWall;
+  const double highest = *std::max_element(heights.begin(), heights.end());
+  return highest < 1.9 ? WallKind::kPartition : WallKind::kWall;
 }
 
 std::vector<SurveyFace> WallBuilder::single_faces() const {

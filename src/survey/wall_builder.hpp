@@ -34,6 +34,8 @@ class WallBuilder {
   Mask on_second(const FacePair& pair, const Mask& on_first) const;
   SurveyFace face(std::size_t index, const Mask& region) const;
   std::vector<Opening> openings(const FacePair& pair, const Mask& shown) const;
+  /// How high `side` of a pair is seen over the length that both sides show [m].
+  double shown_height(const FacePair& pair, const Face& side) const;
   WallKind kind(std::size_t index, const Wall& wall) const;
   bool is_before_a_wall(std::size_t index) const;
   Polygon in_map(const Face& face, const Loop& loop) const;

@@ -90,20 +90,45 @@ class SideBlocks {
       return;
     }
     const Eigen::Vector3d shift = solver.solve(sums_);
+    BlockScatter own;
     for (const auto& [index, block] : blocks_) {
-      const double count = block.place[0];
-      const double residual = block.distance - shift.dot(block.place);
-      const double free = 1.0 - block.place.dot(solver.solve(block.place)) / count;
-      scatter.found += residual * residual / (sq_noise * points_);
-      scatter.expected += free * count / points_;
-      scatter.slow += residual * residual / count - free * sq_noise;
-      scatter.slow_weight += free * count;
-      scatter.sq_slow_error += 2.0 * std::pow(free * sq_noise, 2);
+      const double free = 1.0 - block.place.dot(solver.solve(block.place)) / block.place[0];
+      own.found += std::pow(residual(block, shift), 2) / (sq_noise * points_);
+      own.expected += free * block.place[0] / points_;
     }
-    scatter.blocks += static_cast<double>(blocks_.size()) - 3.0;
+    own.blocks = static_cast<double>(blocks_.size()) - 3.0;
+    scatter += own;
+    add_neighbors(shift, sq_noise * std::max(1.0, own.found / own.expected), solver, scatter);
   }
 
  private:
+  /// Of the points of `block` from the plane of least squares, `shift` off the given one, summed.
+  static double residual(const Block& block, const Eigen::Vector3d& shift) {
+    return block.distance - shift.dot(block.place);
+  }
+
+  /// Adds what blocks that touch have in common, and what the fit, to points that err by
+  /// `sq_error` [m²], took of it.
+  void add_neighbors(
+      const Eigen::Vector3d& shift,
+      double sq_error,
+      const Eigen::LDLT<Eigen::Matrix3d>& solver,
+      BlockScatter& scatter) const {
+    constexpr std::array<std::array<int, 2>, 2> kSteps{{{1, 0}, {0, 1}}};
+    for (const auto& [index, block] : blocks_) {
+      for (const auto& [columns, rows] : kSteps) {
+        const auto next = blocks_.find({index.first + columns, index.second + rows});
+        if (next != blocks_.end()) {
+          const Block& other = next->second;
+          const double weight = std::sqrt(block.place[0] * other.place[0]);
+          const double by_fit = sq_error * block.place.dot(solver.solve(other.place));
+          scatter.common += (residual(block, shift) * residual(other, shift) + by_fit) / weight;
+          scatter.common_weight += weight;
+        }
+      }
+    }
+  }
+
   /// Variance of the points within their blocks [m²]; 0 when nothing tells.
   double within() const {
     double sum = 0.0;
@@ -152,9 +177,8 @@ BlockScatter& BlockScatter::operator+=(const BlockScatter& other) {
   expected += other.expected;
   found += other.found;
   blocks += other.blocks;
-  slow += other.slow;
-  slow_weight += other.slow_weight;
-  sq_slow_error += other.sq_slow_error;
+  common += other.common;
+  common_weight += other.common_weight;
   return *this;
 }
 
@@ -163,12 +187,7 @@ double BlockScatter::inflation(double prior, double prior_blocks) const {
   return (own * blocks + prior * prior_blocks) / std::max(blocks + prior_blocks, 1.0);
 }
 
-double BlockScatter::sq_bend() const {
-  // Shifts of whole sides are far less than chance makes of blocks: half of one deviation of chance
-  // would outweigh all noise of a wall.
-  const double chance = 2.0 * std::sqrt(sq_slow_error);
-  return slow > chance ? (slow - chance) / slow_weight : 0.0;
-}
+double BlockScatter::sq_bend() const { return common > 0.0 ? common / common_weight : 0.0; }
 
 std::optional<WallThickness> measure_wall(
     const SurveyCloud& cloud, const std::vector<Face>& faces, const FacePair& pair) {

@@ -19,16 +19,18 @@ struct BlockScatter {
   double expected = 0.0;
   double found = 0.0;
   double blocks = 0.0;  ///< degrees of freedom of `found`
-  double slow = 0.0;  ///< variance of the blocks' means beyond the noise, times `slow_weight` [m²]
-  double slow_weight = 0.0;    ///< points of the blocks, as far as no plane was fitted to them
-  double sq_slow_error = 0.0;  ///< variance of `slow` by chance [m⁴]
+  double common =
+      0.0;  ///< covariance of the means of blocks that touch, times `common_weight` [m²]
+  double common_weight = 0.0;  ///< points of such a pair, summed
 
   BlockScatter& operator+=(const BlockScatter& other);
 
   /// found / expected, drawn towards `prior` as if that came from `prior_blocks` more blocks.
   double inflation(double prior, double prior_blocks) const;
 
-  /// Variance of the blocks' means beyond the noise, and beyond what chance makes of it [m²].
+  /// Variance of what blocks that touch have in common [m²]: a shift of places half a metre apart
+  /// as of one, which the number of blocks does not average out. Noise of each block for itself,
+  /// as of a map's cells, is in the inflation alone.
   double sq_bend() const;
 };
 

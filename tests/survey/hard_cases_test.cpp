@@ -75,6 +75,17 @@ TEST(HardCases, AClosedDoorIsADoorWithinItsWall) {
   EXPECT_NEAR(walls[0]->length, 5.0, 0.15);
 }
 
+// A wall as low, whose other side is as low, is a partition.
+TEST(HardCases, ADoorLeafOfWhichOneSideIsSeenByHalfIsADoor) {
+  auto random = test::rng();
+  SurfaceSampler sampler(random);
+  sampler.add({0, 0, 0}, {0.9, 0, 0}, {0, 0, 2.0});
+  sampler.add({0.9, 0.04, 0.9}, {-0.9, 0, 0}, {0, 0, 1.1});
+  const Survey survey = survey_walls(sampler.cloud, {});
+  ASSERT_THAT(of_kind(survey, WallKind::kDoor), SizeIs(1));
+  EXPECT_NEAR(survey.walls[0].height, 1.1, 0.15);
+}
+
 TEST(HardCases, AWallUnderASlopingCeilingEndsAtTheCeiling) {
   auto random = test::rng();
   SurfaceSampler sampler(random);

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -159,6 +160,40 @@ TEST(Passes, IntervalsHoldWhenPosesDriftBetweenPasses) {
   ASSERT_EQ(walls, 80);
   EXPECT_GE(covered, 72);
   EXPECT_LT(covered_without, 40);
+}
+
+/// Three walls whose points are off along the normal by `shift(along, up)` [m].
+template <class Shift>
+Survey survey_of_shifted(std::mt19937_64& random, const Shift& shift) {
+  test::SurfaceSampler sampler(random);
+  sampler.noise = 1e-4;
+  for (int wall = 0; wall < 3; ++wall) {
+    sampler.add_wall({0, 3.0 * wall}, {6, 3.0 * wall}, kThickness, 2.5);
+  }
+  for (Eigen::Vector3d& p : sampler.cloud.positions) {
+    p.y() += shift(p.x(), p.z());
+  }
+  return survey_walls(sampler.cloud, {});
+}
+
+// A millimetre of each 20 cm for itself is averaged out by a wall's size; a wave of 3 m is not.
+TEST(Passes, OnlyWhatHalfMetresHaveInCommonCountsAsAShiftOfTheSide) {
+  constexpr double kShift = 0.001;
+  auto random = test::rng();
+  std::normal_distribution<double> normal;
+  std::vector<double> cells(30 * 13);
+  std::generate(cells.begin(), cells.end(), [&] { return kShift * normal(random); });
+  const Survey each = survey_of_shifted(random, [&](double along, double up) {
+    const int column = std::clamp(static_cast<int>(along / 0.2), 0, 29);
+    const int row = std::clamp(static_cast<int>(up / 0.2), 0, 12);
+    return cells[static_cast<std::size_t>(13 * column + row)];
+  });
+  EXPECT_LT(each.bend, 0.25 * kShift);
+  EXPECT_GT(each.inflation, 3.0);
+  const Survey together = survey_of_shifted(random, [](double along, double /*up*/) {
+    return std::sqrt(2.0) * kShift * std::sin(2.0 * along);
+  });
+  EXPECT_NEAR(together.bend, kShift, 0.4 * kShift);
 }
 
 }  // namespace
