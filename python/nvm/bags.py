@@ -26,6 +26,11 @@ TIME_FIELDS = ("time", "t", "timestamp", "offset_time", "time_stamp")
 SCALARS = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 8: "f8"}
 ROS2 = (".db3", ".mcap")
 SCANS = (".pcd", ".ply", ".bin")
+HINTS = {  # of what rosbags says
+    "File end magic is invalid": "it was cut off or never closed, of which `mcap recover` makes a whole file",
+    "Profile is not ros2": "of MCAP files those with messages of ROS 2 are read",
+    "disk image is malformed": "it was cut off or damaged, of which `sqlite3 FILE .recover` saves what there is",
+}
 SAMPLES = 10  # messages of a topic that are looked at
 
 
@@ -119,6 +124,8 @@ class Recording:
         except ImportError as error:
             raise BagError(f"{path}: bags are read by rosbags: pip install rosbags") from error
         self.path = pathlib.Path(path)
+        if not self.path.exists():
+            raise BagError(f"{path}: does not exist")
         others = list(self.path.glob("*.bag")) if self.path.is_dir() else []
         if others and bags_of(self.path)[0].suffix in ROS2:
             raise BagError(f"{path}: holds bags of ROS 1 ({others[0].name}) and of ROS 2: name one of them")
@@ -131,7 +138,10 @@ class Recording:
             self._reader = AnyReader(bags, default_typestore=store)
             self._reader.open()
         except (AnyReaderError, OSError, ValueError) as error:
-            raise BagError(f"{path}: {error}") from error
+            hints = (f": {hint}" for problem, hint in HINTS.items() if problem in str(error))
+            raise BagError(f"{path}: {str(error).rstrip('.')}" + next(hints, "")) from error
+        except KeyError as error:  # of an encoding, in MCAP
+            raise BagError(f"{path}: holds messages that are none of ROS 2: {error}") from error
         except Exception as error:  # rosbags lets what yaml, sqlite and mcap find wrong pass
             raise BagError(f"{path}: is no readable bag: {error}") from error
         register_livox(self._reader.typestore)

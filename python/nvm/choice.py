@@ -42,9 +42,10 @@ def choose(recording: Recording, lidar: str = "", imu: str = "") -> Choice:
     clouds = [t for t in topics if t.is_cloud and t.count]
     imus = [t for t in topics if t.is_imu and t.count]
     if not clouds:
-        kinds = ", ".join(sorted({t.type for t in topics})) or "nothing"
+        kinds = ", ".join(sorted({t.type for t in topics if t.count})) or "nothing"
+        empty = "".join(f"; {t.name} has no messages" for t in topics if t.is_cloud)
         raise BagError(
-            f"{recording.path}: has no clouds (PointCloud2 or Livox CustomMsg); it holds: {kinds}"
+            f"{recording.path}: has no clouds (PointCloud2 or Livox CustomMsg); it holds: {kinds}{empty}"
         )
     chosen, why = pick(recording, "lidar", clouds, lidar, lidar_rank)
     reasons = [f"lidar: {chosen.name}, {why or lidar_reason(chosen, clouds)}"]

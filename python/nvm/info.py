@@ -43,9 +43,9 @@ def table(rows) -> list[str]:
 
 def details(topic: Topic) -> str:
     """Fields and units."""
+    if not topic.fields and topic.acceleration is None:
+        return "no messages"
     if topic.is_imu:
-        if topic.acceleration is None:
-            return "no messages"
         unit = "g" if topic.acceleration < G_LIMIT else "m/s^2"
         return f"accelerations of {topic.acceleration:.2f}: {unit}"
     times = "no times of points"

@@ -58,8 +58,9 @@ def points_of(map):
         return tuple(np.concatenate(column) for column in zip(*tiles))
     if isinstance(map, _nvm.VoxelMap):
         return map.points, map.normals
-    points, normals = map
-    return points, normals
+    if not isinstance(map, (tuple, list)) or len(map) != 2:
+        raise ValueError("map must be a VoxelMap, a Store, the folder of a run, or a pair of points and normals")
+    return map
 
 
 def own_points(store: Store, tile):

@@ -22,7 +22,7 @@ nb::object as_float_array(nb::handle object, const char* name) {
   try {
     array = numpy.attr("asarray")(object);
   } catch (const nb::python_error& error) {
-    refuse(name, std::string("is no array of numbers: ") + error.what());
+    refuse(name, "is no array of numbers: " + text_of(error.value()));
   }
   const nb::object dtype = array.attr("dtype");
   const std::string kind = text_of(dtype.attr("kind"));
@@ -84,6 +84,15 @@ Eigen::Vector3d vector_from(nb::handle object, const char* name) {
   return vector;
 }
 
+std::string path_from(nb::handle object) {
+  PyObject* encoded = nullptr;
+  if (PyUnicode_FSConverter(object.ptr(), &encoded) == 0) {
+    throw nb::python_error();
+  }
+  const auto path = nb::steal<nb::bytes>(encoded);
+  return {path.c_str(), path.size()};
+}
+
 Pose pose_from(nb::handle object, const char* name) {
   Pose pose = Pose::Identity();
   if (object.is_none()) {
@@ -97,7 +106,7 @@ Pose pose_from(nb::handle object, const char* name) {
     }
     flat = array.attr("reshape")(16);
   } catch (const nb::python_error& error) {
-    refuse(name, std::string("is no array of numbers: ") + error.what());
+    refuse(name, "is no array of numbers: " + text_of(error.value()));
   }
   const Numbers numbers(flat, name);
   Eigen::Matrix4d matrix;

@@ -11,6 +11,7 @@
 #include <initializer_list>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -80,6 +81,10 @@ void require_same_size(
 
 /// Three finite numbers. Throws ValueError.
 Eigen::Vector3d vector_from(nb::handle object, const char* name);
+
+/// A path of a str, bytes or os.PathLike. Throws TypeError for another object, ValueError for a
+/// path with a NUL.
+std::string path_from(nb::handle object);
 
 /// A pose of an array (4, 4), the identity of None. Throws ValueError unless it is finite and
 /// rigid.

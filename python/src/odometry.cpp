@@ -40,7 +40,7 @@ lio::PipelineOptions options_from(const nb::object& config) {
   lio::bind(schema, options);
   if (!nb::isinstance<nb::dict>(config)) {
     if (!config.is_none()) {
-      schema.read_file(nb::str(config).c_str());
+      schema.read_file(path_from(config));
     }
     return options;
   }

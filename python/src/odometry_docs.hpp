@@ -23,7 +23,8 @@ ValueError
 
 inline constexpr char kAddImuDoc[] = R"(Take readings of the IMU: one, or N at once.
 
-All readings up to a scan's end, as `imu_needed_until` says it, must come before that scan.
+All readings up to a scan's end, as `imu_needed_until` says it, must come before that scan, in any
+order. One that comes later than that, or twice, is left out.
 
 Parameters
 ----------
@@ -68,7 +69,13 @@ begin, end : float, optional
 
 Returns
 -------
-FrameResult)";
+FrameResult
+
+Raises
+------
+ValueError
+    For arrays of other shapes, and for times that lie outside `begin` to `end` or span more than
+    10 s, which are of another unit.)";
 
 inline constexpr char kFindingsDoc[] = R"(What is wrong, or was mended, in the data so far.
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "arrays.hpp"
+#include "common/printed.hpp"
 
 namespace nvm::python {
 
@@ -98,6 +99,12 @@ Scan timed_scan(nb::handle points, nb::handle times, nb::handle begin, nb::handl
   constexpr double kRounding = 1e-5;  // [s]
   if (first - origin < 0.0 || scan.t_begin + (last - origin) > scan.t_end + kRounding) {
     throw std::invalid_argument("nvm: times must lie from begin to end");
+  }
+  constexpr double kLongest = 10.0;  // [s]; 0.1 s in ms are 100
+  if (last - first > kLongest) {
+    throw std::invalid_argument(printed(
+        "nvm: times of one scan span %.6g s: give them in seconds, and one scan at a time",
+        last - first));
   }
   scan.points.reserve(finite.size());
   for (const auto& [time, position] : finite) {

@@ -13,8 +13,8 @@ namespace nvm::python {
 /// The finite points of a scan by ascending time. `times` is an array of one time per point, or a
 /// number for all. Without a `begin` they are absolute [s]; with one they count from it [s], are
 /// kept as they are, and the scan ends at `end`, by default with its last point. Throws ValueError
-/// for other shapes, for times before `begin` or after `end`, and for absolute ones in float32,
-/// which lost their digits.
+/// for other shapes, for times before `begin` or after `end`, over more than 10 s, and for absolute
+/// ones in float32, which lost their digits.
 Scan timed_scan(
     nanobind::handle points, nanobind::handle times, nanobind::handle begin, nanobind::handle end);
 

@@ -62,8 +62,10 @@ nb::tuple nearest(
       to_array(std::move(answers.counts), positions.size()));
 }
 
+void require_radius(double radius) { require(radius >= 0.0, "radius", radius, "zero or more [m]"); }
+
 Array<std::int64_t> within(const SharedMap& self, nb::handle center, double radius) {
-  require(radius >= 0.0, "radius", radius, "zero or more [m]");
+  require_radius(radius);
   const Eigen::Vector3d middle = vector_from(center, "center");
   return to_array(self.read([&](const VoxelMap& map) {
     const auto rows = self.rows(map);
@@ -161,6 +163,7 @@ void bind_erasing(nb::class_<SharedMap>& map) {
       .def(
           "erase_within",
           [](SharedMap& self, nb::handle center, double radius) {
+            require_radius(radius);
             const Eigen::Vector3d middle = vector_from(center, "center");
             return self.write([&](VoxelMap& m) { return m.erase_within(middle, radius); });
           },
@@ -170,6 +173,7 @@ void bind_erasing(nb::class_<SharedMap>& map) {
       .def(
           "erase_voxels_beyond",
           [](SharedMap& self, nb::handle center, double radius) {
+            require_radius(radius);
             const Eigen::Vector3d middle = vector_from(center, "center");
             return self.write([&](VoxelMap& m) { return m.erase_voxels_beyond(middle, radius); });
           },
@@ -219,8 +223,8 @@ void bind_contents(nb::class_<SharedMap>& map) {
 void bind_files(nb::class_<SharedMap>& map, nb::module_& module) {
   map.def(
          "save",
-         [](const SharedMap& self, const nb::object& path) {
-           const std::string name = nb::str(path).c_str();
+         [](const SharedMap& self, nb::handle path) {
+           const std::string name = path_from(path);
            self.read([&](const VoxelMap& m) { save_map(m, name); });
          },
          "path"_a,
@@ -229,8 +233,8 @@ void bind_files(nb::class_<SharedMap>& map, nb::module_& module) {
       .def("__setstate__", &restore);
   module.def(
       "load",
-      [](const nb::object& path) {
-        const std::string name = nb::str(path).c_str();
+      [](nb::handle path) {
+        const std::string name = path_from(path);
         const nb::gil_scoped_release no_gil;
         return new SharedMap(load_map(name));  // Python owns it
       },

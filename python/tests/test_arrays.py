@@ -3,6 +3,7 @@
 """Arrays of any kind are read rightly or refused, and nothing crashes."""
 
 import gc
+import os
 import threading
 
 import numpy as np
@@ -128,6 +129,44 @@ def test_unequal_lengths_are_refused(cloud):
 def test_impossible_searches_are_refused(cloud, k, distance):
     with pytest.raises(ValueError):
         nvm.VoxelMap().nearest(cloud[0], k=k, max_distance=distance)
+
+
+@pytest.mark.parametrize("radius", [-1.0, np.nan])
+@pytest.mark.parametrize("method", ["within", "erase_within", "erase_voxels_beyond"])
+def test_radii_that_are_none_are_refused(cloud, method, radius):
+    voxel_map = nvm.VoxelMap()
+    voxel_map.insert(*cloud)
+    before = len(voxel_map)
+    with pytest.raises(ValueError, match="radius"):
+        getattr(voxel_map, method)((0, 0, 0), radius)
+    assert len(voxel_map) == before
+
+
+def test_what_an_array_throws_is_said_in_one_line():
+    class Broken:
+        def __array__(self, *_, **__):
+            raise RuntimeError("no points today")
+
+    with pytest.raises(ValueError, match="points is no array of numbers: no points today$"):
+        nvm.VoxelMap().nearest(Broken())
+
+
+def test_paths_are_those_of_the_system(cloud, tmp_path):
+    voxel_map = nvm.VoxelMap()
+    voxel_map.insert(*cloud)
+    named = os.fsencode(tmp_path) + b"/\xff.nvm"  # no UTF-8
+    for path in (tmp_path / "map.nvm", str(tmp_path / "map.nvm"), named, os.fsdecode(named)):
+        voxel_map.save(path)
+        assert len(nvm.load(path)) == len(voxel_map)
+    for other in (5, None, ["map.nvm"]):
+        with pytest.raises(TypeError):
+            voxel_map.save(other)
+        with pytest.raises(TypeError):
+            nvm.load(other)
+    with pytest.raises(ValueError, match="null"):
+        voxel_map.save(f"{tmp_path}/a\0b")
+    with pytest.raises((RuntimeError, ValueError)):
+        nvm.load(named + b".lost")
 
 
 def test_an_infinite_distance_means_no_limit(cloud):

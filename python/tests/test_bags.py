@@ -187,7 +187,7 @@ def test_what_is_no_bag_is_said_in_one_line(tmp_path):
         with pytest.raises(BagError, match=name) as caught:
             Recording(path)
         assert "\n" not in str(caught.value)
-    with pytest.raises(BagError, match="missing.bag"):
+    with pytest.raises(BagError, match="missing.bag: does not exist"):
         Recording(tmp_path / "missing.bag")
     (tmp_path / "folder").mkdir()
     assert not is_bag(tmp_path / "folder")

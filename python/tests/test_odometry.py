@@ -147,6 +147,8 @@ def test_settings_come_from_a_file_or_from_numpy(tmp_path):
         ((np.zeros((5, 3)), np.zeros(4)), "times has 4 rows"),
         ((np.zeros((5, 3)), np.nan), "times must be a finite number"),
         ((np.zeros((5, 3)), np.full(5, 1e9, np.float32)), "too coarse"),
+        ((np.zeros((5, 3)), 1e18 + np.linspace(0, 1e8, 5)), "span 1e.08 s: give them in seconds"),
+        ((np.zeros((5, 3)), np.linspace(0, 100, 5), 10.0), "span 100 s"),
         ((np.zeros((5, 3)), np.full(5, -0.1), 10.0), "from begin to end"),
         ((np.zeros((5, 3)), np.full(5, 0.3), 10.0, 10.1), "from begin to end"),
         ((np.zeros((5, 3)), np.zeros(5), "now"), "begin must be a finite number"),

@@ -50,6 +50,9 @@ def test_options_take_effect_and_bad_ones_are_named(rng):
         nvm.survey((points, np.zeros_like(normals)))
     with pytest.raises(ValueError):
         nvm.survey((np.zeros((0, 3)), np.zeros((0, 3))))
+    for other in (None, (points,), (points, normals, normals), 5):
+        with pytest.raises(ValueError, match="a pair of points and normals"):
+            nvm.survey(other)
 
 
 def test_a_store_is_one_map(rng, tmp_path):
