@@ -6,11 +6,12 @@ from __future__ import annotations
 
 import json
 import os
+import warnings
 
 import numpy as np
 
 from . import _nvm
-from .store import Store
+from .store import INDEX, Store
 
 
 def survey(map, out=None, **options) -> dict:
@@ -20,7 +21,8 @@ def survey(map, out=None, **options) -> dict:
     ----------
     map : VoxelMap, Store, (points, normals) or path
         Points (N, 3) [m], and normals (N, 3) of unit length that look at where a point was seen from. The path is that of
-        a folder of ``nvm run``, whose keyframes tell which sides were seen in one pass, and how far poses drift between.
+        a store, of a map.nvm, or of a folder of ``nvm run``, whose keyframes tell which sides were seen in one pass, and
+        how far poses drift between.
     out : path, optional
         Folder for what ``nvm walls`` writes: list, plan and page.
     **options
@@ -44,10 +46,16 @@ def survey(map, out=None, **options) -> dict:
     """
     run_map = ""
     if isinstance(map, (str, os.PathLike)):
-        run_map = os.path.join(map, "map.nvm")
-        map = _nvm.load(run_map)
+        if os.path.isfile(os.path.join(map, INDEX)):
+            map = Store(map)
+        else:
+            run_map = os.path.join(map, "map.nvm") if os.path.isdir(map) else os.fspath(map)
+            map = _nvm.load(run_map)
     points, normals = points_of(map)
-    return json.loads(_nvm.survey(points, normals, "" if out is None else os.fspath(out), run_map, **options))
+    found = json.loads(_nvm.survey(points, normals, "" if out is None else os.fspath(out), run_map, **options))
+    if found["inside_out"]:
+        warnings.warn("normals seem to point into the walls instead of to where points were seen from", stacklevel=2)
+    return found
 
 
 def points_of(map):

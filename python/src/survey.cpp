@@ -9,6 +9,7 @@
 
 #include "arrays.hpp"
 #include "bind.hpp"
+#include "io/result/map_origin.hpp"
 #include "options.hpp"
 #include "survey/keyframes_beside.hpp"
 #include "survey/survey_files.hpp"
@@ -54,9 +55,15 @@ std::string survey(
     const std::string& map,
     const nb::kwargs& keywords) {
   const auto options = options_from<survey::SurveyOptions>(keywords);
-  const io::MapCloud cloud = cloud_from(points, normals);
-  const survey::KeyframeSource keyframes =
-      map.empty() ? nullptr : survey::keyframes_beside(map, Eigen::Vector3d::Zero());
+  io::MapCloud cloud = cloud_from(points, normals);
+  survey::KeyframeSource keyframes;
+  if (!map.empty()) {
+    const Eigen::Vector3d origin = io::read_origin(map);
+    for (Eigen::Vector3d& position : cloud.positions) {
+      position += origin;
+    }
+    keyframes = survey::keyframes_beside(map, origin);
+  }
   const nb::gil_scoped_release no_gil;
   const survey::Survey found = survey::survey_walls(cloud, options, keyframes);
   if (!out.empty()) {

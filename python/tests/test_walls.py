@@ -34,6 +34,8 @@ def test_a_cloud_a_map_and_the_program_agree(rng, tmp_path):
     assert of_map == json.loads((tmp_path / "a" / "walls.json").read_text())
     of_program = json.loads((tmp_path / "b" / "walls.json").read_text())
     assert of_map["walls"][0]["thickness"] == pytest.approx(of_program["walls"][0]["thickness"], abs=1e-6)
+    for path in (tmp_path, tmp_path / "map.nvm"):
+        assert nvm.survey(path)["walls"] == of_program["walls"]
     assert {path.name for path in (tmp_path / "a").iterdir()} == {path.name for path in (tmp_path / "b").iterdir()}
 
 
@@ -55,6 +57,23 @@ def test_options_take_effect_and_bad_ones_are_named(rng):
             nvm.survey(other)
 
 
+def test_a_map_far_from_zero_is_where_the_program_has_it(rng, tmp_path):
+    voxel_map = nvm.VoxelMap()
+    voxel_map.insert(*thin_wall(rng))
+    voxel_map.save(tmp_path / "map.nvm")
+    (tmp_path / "map_origin.txt").write_text("480000 5500000 0\n")
+    assert program("walls", tmp_path, "--out", tmp_path / "out").returncode == 0
+    of_program = json.loads((tmp_path / "out" / "walls.json").read_text())
+    assert nvm.survey(tmp_path)["walls"] == of_program["walls"]
+    assert of_program["walls"][0]["faces"][0]["polygon"][0][0] == pytest.approx(480000.0, abs=10.0)
+
+
+def test_normals_that_point_into_walls_are_warned_of(rng):
+    points, normals = thin_wall(rng)
+    with pytest.warns(UserWarning, match="into the walls"):
+        assert not nvm.survey((points, -normals))["walls"]
+
+
 def test_a_store_is_one_map(rng, tmp_path):
     from nvm.distributed import Session, build
 
@@ -64,6 +83,7 @@ def test_a_store_is_one_map(rng, tmp_path):
     poses[:, 1, 3] = -1.5, 1.5
     store = build([Session(scans=scans, poses=poses)], tmp_path / "store", tile_size=2.0)
     found = nvm.survey(store)
+    assert nvm.survey(tmp_path / "store") == found
     assert [w["thickness"] for w in found["walls"]] == [pytest.approx(0.08, abs=0.003)]
     done = program("walls", tmp_path / "store", "--out", tmp_path / "out")
     assert done.returncode == 0, done.stderr
