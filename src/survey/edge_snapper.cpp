@@ -80,18 +80,15 @@ double EdgeSnapper::end_of_points(const Surroundings& around, const Line& line, 
          offsets[static_cast<std::size_t>(share * static_cast<double>(offsets.size() - 1))];
 }
 
-EdgeSnapper::Line EdgeSnapper::edge_line(const Surroundings& around, const Edge& loop_edge) {
+std::vector<EdgeSnapper::Line> EdgeSnapper::cuts_along(
+    const Surroundings& around, const Edge& loop_edge, const Line& edge) {
   constexpr double kMaxSlope = 0.18;  // of an edge against the cut: 10 degrees
   const Face& face = around.face;
-  const auto& [from, to, is_of_hole] = loop_edge;
-  const double edge_length = std::max(length(from, to), 1e-9);
-  Line edge{(to.v - from.v) / edge_length, (from.u - to.u) / edge_length, 0.0};
-  edge.c = edge.a * from.u + edge.b * from.v;
-  Line best = edge;
-  double best_distance = kReach;
-  const double middle_u = 0.5 * (from.u + to.u);
-  const double middle_v = 0.5 * (from.v + to.v);
+  const double edge_length = length(loop_edge.from, loop_edge.to);
+  const double middle_u = 0.5 * (loop_edge.from.u + loop_edge.to.u);
+  const double middle_v = 0.5 * (loop_edge.from.v + loop_edge.to.v);
   const Eigen::Vector3d middle = face.frame.point(middle_u, middle_v);
+  std::vector<Line> cuts;
   for (const Face* other : around.neighbors) {
     if (!is_near(*other, middle)) {
       continue;
@@ -99,21 +96,41 @@ EdgeSnapper::Line EdgeSnapper::edge_line(const Surroundings& around, const Edge&
     Line cut{
         other->plane.normal.dot(face.frame.u),
         other->plane.normal.dot(face.frame.v),
-        -other->plane.distance(face.frame.origin)};
+        -other->plane.distance(face.frame.origin),
+        true};
     const double scale =
         (cut.a * edge.a + cut.b * edge.b < 0.0 ? -1.0 : 1.0) / std::hypot(cut.a, cut.b);
-    cut = {scale * cut.a, scale * cut.b, scale * cut.c};
+    cut = {scale * cut.a, scale * cut.b, scale * cut.c, true};
     const double slope = std::abs(cut.a * edge.b - cut.b * edge.a);
-    const double distance = std::abs(cut.a * middle_u + cut.b * middle_v - cut.c);
-    if (distance < best_distance && slope * std::min(edge_length, 1.0) < kMaxSlope) {
-      best_distance = distance;
-      best = cut;
+    if (std::abs(cut.a * middle_u + cut.b * middle_v - cut.c) < kReach &&
+        slope * std::min(edge_length, 1.0) < kMaxSlope) {
+      cuts.push_back(cut);
     }
   }
-  if (best_distance == kReach && length(from, to) > face.seen.cell()) {
-    best.c = end_of_points(around, edge, loop_edge);
+  return cuts;
+}
+
+EdgeSnapper::Line EdgeSnapper::edge_line(const Surroundings& around, const Edge& loop_edge) {
+  const auto& [from, to, is_of_hole] = loop_edge;
+  const double edge_length = std::max(length(from, to), 1e-9);
+  Line edge{(to.v - from.v) / edge_length, (from.u - to.u) / edge_length, 0.0};
+  edge.c = edge.a * from.u + edge.b * from.v;
+  const std::vector<Line> cuts = cuts_along(around, loop_edge, edge);
+  if (cuts.size() == 1) {
+    return cuts[0];
   }
-  return best;
+  const double end =
+      edge_length > around.face.seen.cell() ? end_of_points(around, edge, loop_edge) : edge.c;
+  // Of a wall that this face abuts on both sides may be near: it ends at that where its points do.
+  const double u = 0.5 * (from.u + to.u) + (end - edge.c) * edge.a;
+  const double v = 0.5 * (from.v + to.v) + (end - edge.c) * edge.b;
+  edge.c = end;
+  const auto distance = [&](const Line& cut) { return std::abs(cut.a * u + cut.b * v - cut.c); };
+  const auto nearest =
+      std::min_element(cuts.begin(), cuts.end(), [&](const Line& first, const Line& second) {
+        return distance(first) < distance(second);
+      });
+  return nearest == cuts.end() ? edge : *nearest;
 }
 
 Loop EdgeSnapper::snap(std::size_t index, const Loop& loop, bool is_hole) const {
@@ -136,8 +153,9 @@ Loop EdgeSnapper::snap(std::size_t index, const Loop& loop, bool is_hole) const 
           (before.c * after.b - before.b * after.c) / sine,
           (before.a * after.c - before.c * after.a) / sine};
     } else {
-      const double off = after.a * corner.u + after.b * corner.v - after.c;
-      corner = {corner.u - off * after.a, corner.v - off * after.b};
+      const Line& known = before.is_cut && !after.is_cut ? before : after;
+      const double off = known.a * corner.u + known.b * corner.v - known.c;
+      corner = {corner.u - off * known.a, corner.v - off * known.b};
     }
     result.push_back(length(corner, loop[i]) < kMaxMove ? corner : loop[i]);
   }

@@ -17,9 +17,10 @@ class EdgeSnapper {
   EdgeSnapper(const SurveyCloud& cloud, const std::vector<Face>& faces);
 
   /// `loop` on face `index`, each edge moved to the line in which another face cuts the plane of
-  /// this one, where one runs along it nearby: corners of rooms then are where three planes meet.
-  /// Other edges go to the outermost of the face's points, or, where the loop bounds a hole, to the
-  /// first of those around it. A corner is where its edges meet.
+  /// this one, where one runs along it nearby, the nearest to where its points end: corners of
+  /// rooms then are where three planes meet. Other edges go to the outermost of the face's points,
+  /// or, where the loop bounds a hole, to the first of those around it. A corner is where its edges
+  /// meet.
   Loop snap(std::size_t index, const Loop& loop, bool is_hole = false) const;
 
  private:
@@ -28,6 +29,7 @@ class EdgeSnapper {
     double a;
     double b;
     double c;
+    bool is_cut = false;  ///< by another face
   };
 
   struct Edge {
@@ -44,6 +46,9 @@ class EdgeSnapper {
   };
 
   Surroundings surroundings(std::size_t index) const;
+  /// The lines in which other faces cut the plane along an edge, within reach of its middle.
+  static std::vector<Line> cuts_along(
+      const Surroundings& around, const Edge& loop_edge, const Line& edge);
   static Line edge_line(const Surroundings& around, const Edge& edge);
   static double end_of_points(const Surroundings& around, const Line& line, const Edge& edge);
 

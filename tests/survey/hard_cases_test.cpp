@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "support/rng.hpp"
@@ -84,6 +85,26 @@ TEST(HardCases, ADoorLeafOfWhichOneSideIsSeenByHalfIsADoor) {
   const Survey survey = survey_walls(sampler.cloud, {});
   ASSERT_THAT(of_kind(survey, WallKind::kDoor), SizeIs(1));
   EXPECT_NEAR(survey.walls[0].height, 1.1, 0.15);
+}
+
+// Of the wall that a partition abuts on, both faces are near its end.
+TEST(HardCases, APartitionEndsAtTheFaceOfTheWallThatItAbutsOn) {
+  auto random = test::rng();
+  for (const double thickness : {0.06, 0.08, 0.1, 0.12}) {
+    SurfaceSampler sampler(random);
+    sampler.add_wall({-3, -0.5 * thickness}, {3, -0.5 * thickness}, thickness, 2.5);
+    sampler.add_wall({0.03, 0}, {0.03, 4}, 0.1, 2.5);
+    const Survey survey = survey_walls(sampler.cloud, {});
+    ASSERT_THAT(survey.walls, SizeIs(2));
+    const bool is_first = std::abs(survey.walls[0].faces[0].plane.normal.x()) > 0.5;
+    for (const SurveyFace& face : survey.walls[is_first ? 0 : 1].faces) {
+      double end = HUGE_VAL;
+      for (const Eigen::Vector3d& p : face.polygon) {
+        end = std::min(end, p.y());
+      }
+      EXPECT_NEAR(end, 0.0, 0.005) << thickness;
+    }
+  }
 }
 
 TEST(HardCases, AWallUnderASlopingCeilingEndsAtTheCeiling) {
