@@ -15,9 +15,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from .imu import IMU, imu_cdr_to_ros1
+from .imu import IMU
 from .livox import FIELDS as LIVOX_FIELDS
-from .livox import is_livox, livox_cdr_to_ros1, register_livox
+from .livox import is_livox, register_livox
+from .serialization import ros1_of, ros2_typestore
 from .transforms import TransformTree
 
 CLOUD = "sensor_msgs/msg/PointCloud2"
@@ -120,7 +121,6 @@ class Recording:
     def __init__(self, path: str | pathlib.Path):
         try:
             from rosbags.highlevel import AnyReader, AnyReaderError
-            from rosbags.typesys import Stores, get_typestore
         except ImportError as error:
             raise BagError(f"{path}: bags are read by rosbags: pip install rosbags") from error
         self.path = pathlib.Path(path)
@@ -132,10 +132,8 @@ class Recording:
         folder = self.path.parent
         is_part = self.path.suffix != ".bag" and self.path.is_file() and bags_of(folder) == [folder]
         bags = [folder] if is_part else bags_of(self.path) or [self.path]
-        store = get_typestore(Stores.ROS2_HUMBLE)
-        register_livox(store)
         try:
-            self._reader = AnyReader(bags, default_typestore=store)
+            self._reader = AnyReader(bags, default_typestore=ros2_typestore())
             self._reader.open()
         except (AnyReaderError, OSError, ValueError) as error:
             hints = (f": {hint}" for problem, hint in HINTS.items() if problem in str(error))
@@ -200,12 +198,7 @@ class Recording:
         return self._reader.messages(connections=connections) if connections else iter(())
 
     def _as_ros1(self, raw, kind: str) -> bytes | memoryview:
-        if not self._reader.is2:
-            return raw
-        if is_livox(kind):
-            return livox_cdr_to_ros1(raw)
-        short = imu_cdr_to_ros1(raw) if kind == IMU else None
-        return short or self._reader.typestore.cdr_to_ros1(raw, kind)
+        return ros1_of(raw, kind, self._reader.typestore) if self._reader.is2 else raw
 
     def _topic(self, name: str, kind: str, count: int) -> Topic:
         rate = (count - 1) / self.duration if count > 1 and self.duration > 0 else 0.0

@@ -11,6 +11,7 @@ void bind_voxel_map(nanobind::module_& module);
 void bind_normals(nanobind::module_& module);
 void bind_odometry(nanobind::module_& module);
 void bind_registration(nanobind::module_& module);
+void bind_scan_stream(nanobind::module_& module);
 void bind_survey(nanobind::module_& module);
 
 }  // namespace nvm::python

@@ -20,6 +20,7 @@ NB_MODULE(_nvm, module) {
   nvm::python::bind_voxel_map(module);
   nvm::python::bind_normals(module);
   nvm::python::bind_registration(module);
+  nvm::python::bind_scan_stream(module);
   nvm::python::bind_odometry(module);
   nvm::python::bind_survey(module);
 }

@@ -18,6 +18,7 @@
 #include "nvm/map/serialization.hpp"
 #include "nvm/map/sighting.hpp"
 #include "odometry_docs.hpp"
+#include "settings.hpp"
 #include "shared_map.hpp"
 #include "timed_scan.hpp"
 
@@ -26,12 +27,6 @@ namespace nvm::python {
 namespace {
 
 using namespace nb::literals;
-
-std::string as_json(const nb::object& value) {
-  const nb::object number = nb::module_::import_("builtins").attr("float");  // of numpy's numbers
-  return nb::cast<std::string>(
-      nb::module_::import_("json").attr("dumps")(value, "default"_a = number));
-}
 
 /// Settings of `nvm run`: a path of YAML, or a dict of sections or of "section.key".
 lio::PipelineOptions options_from(const nb::object& config) {
@@ -51,10 +46,10 @@ lio::PipelineOptions options_from(const nb::object& config) {
     if (name.find('.') == std::string::npos) {
       sections[key] = value;
     } else {
-      assignments.push_back(name + "=" + as_json(nb::borrow(value)));
+      assignments.push_back(name + "=" + as_json(value));
     }
   }
-  schema.read_text(as_json(sections), "config");  // YAML has JSON within it
+  schema.read_text(as_json(sections), "config");
   for (const std::string& assignment : assignments) {
     schema.set(assignment);
   }
@@ -234,6 +229,7 @@ void bind_odometry(nb::module_& module) {
           "begin"_a = nb::none(),
           "end"_a = nb::none(),
           kRegisterDoc)
+      .def("register", &Odometry::add_scan, "scan"_a, "A Scan, which `ScanStream.convert` gives.")
       .def("findings", &Odometry::findings, kFindingsDoc)
       .def_prop_ro("scan", &Odometry::scan, kScanDoc)
       .def_prop_ro(

@@ -138,7 +138,7 @@ void Node::begin(const Topics& topics, std::size_t queue_size, SensorQueue::When
   options_.pipeline.type = nvm::lio::resolve(options_.pipeline.type, !topics.imu.empty());
   queue_ = std::make_unique<SensorQueue>(
       queue_size, when_full, !topics.imu.empty(), options_.imu_timeout);
-  converter_ = nvm::io::ScanConverter(nvm::io::message_time_options(options_.input));
+  scans_ = nvm::io::ScanStream(nvm::io::message_time_options(options_.input));
   ROS_INFO(
       "LiDAR: %s, IMU: %s", topics.lidar.c_str(), topics.imu.empty() ? "none" : topics.imu.c_str());
   for (const std::string& note : topics.notes) {

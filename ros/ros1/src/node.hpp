@@ -19,9 +19,7 @@
 #include "finding_watch.hpp"
 #include "frames.hpp"
 #include "io/message/message_source.hpp"
-#include "io/scan/cloud_stream.hpp"
-#include "io/scan/scan_converter.hpp"
-#include "io/scan/sweep_overlap.hpp"
+#include "io/scan/scan_stream.hpp"
 #include "node_options.hpp"
 #include "odometry.hpp"
 #include "outputs.hpp"
@@ -78,10 +76,7 @@ class Node {
   std::unique_ptr<SensorQueue> queue_;
   std::thread worker_;
   // Of the worker:
-  nvm::io::CloudStream stream_;
-  nvm::io::ScanConverter converter_;
-  nvm::io::SweepOverlap overlap_;
-  std::string overlap_finding_;
+  nvm::io::ScanStream scans_;
   std::vector<RawCloud> first_;  ///< clouds that wait until there are enough to learn from
   bool has_learnt_ = false;
   std::size_t epoch_ = 0;

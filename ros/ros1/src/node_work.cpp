@@ -14,9 +14,12 @@ namespace nvm_ros {
 
 namespace {
 
-/// When it came [s].
-double time_of(const RawCloud& cloud) {
-  return std::isfinite(cloud.record_time) ? cloud.record_time : cloud.stamp;
+/// Its points, when it was published, and the topic. Throws std::runtime_error.
+nvm::io::CloudMessage read(const RawCloud& raw, const std::string& topic) {
+  nvm::io::CloudMessage cloud = nvm::io::read_cloud(raw.message);
+  cloud.record_time = raw.record_time;
+  cloud.records.source = topic;
+  return cloud;
 }
 
 }  // namespace
@@ -39,22 +42,17 @@ void Node::work() {
 // How points and scans are dated is judged over the first clouds, as any one may be bad.
 void Node::learn() {
   std::vector<nvm::io::CloudMessage> clouds;
-  nvm::io::CloudStream stream;
   for (const RawCloud& raw : first_) {
     try {
-      nvm::io::CloudMessage cloud = nvm::io::read_cloud(raw.message);
-      stream.check(cloud, time_of(raw));
-      cloud.record_time = raw.record_time;
-      cloud.records.source = topics_.lidar;
-      clouds.push_back(std::move(cloud));
+      clouds.push_back(read(raw, topics_.lidar));
     } catch (const std::exception&) {
       continue;  // try_to_process() tells it
     }
   }
+  clouds = nvm::io::ScanStream::select(std::move(clouds));
   if (!clouds.empty()) {
-    converter_.learn(clouds);
+    scans_.learn(clouds);
     has_learnt_ = true;
-    overlap_finding_ = overlap_.learn(converter_.preview(clouds));
   }
   for (const RawCloud& raw : first_) {
     try_to_process(raw);
@@ -80,10 +78,9 @@ void Node::process(const RawCloud& cloud) {
     const std::lock_guard lock(mutex_);
     begin_anew(fmt::format("time has gone back to {:.3f} s", cloud.stamp));
   }
-  const nvm::io::CloudMessage message = nvm::io::read_cloud(cloud.message);
-  stream_.check(message, time_of(cloud));
-  const nvm::Scan scan = converter_.convert(message.records, cloud.stamp);
-  overlap_.check(scan);
+  const nvm::io::CloudMessage message = read(cloud, topics_.lidar);
+  scans_.check(message);
+  const nvm::Scan scan = scans_.convert(message.records, cloud.stamp);
   const auto readings = queue_->imu_until(cloud, imu_needed_until(scan.t_end));
   if (!readings) {
     return;
@@ -161,16 +158,10 @@ void Node::tell(const nvm::lio::FrameResult& frame, const RawCloud& cloud) {
   }
 }
 
-// The first note only tells how points are dated, when they are.
 void Node::tell_findings(double time) {
   std::vector<std::string> findings = odometry_->pipeline().findings();
-  const std::vector<std::string> notes = converter_.notes();
-  const bool is_dated = converter_.times().base != nvm::io::PointTimes::Base::kNone;
-  findings.insert(
-      findings.end(), notes.begin() + (is_dated && !notes.empty() ? 1 : 0), notes.end());
-  if (!overlap_finding_.empty()) {
-    findings.push_back(overlap_finding_);
-  }
+  const std::vector<std::string> of_scans = scans_.findings();
+  findings.insert(findings.end(), of_scans.begin(), of_scans.end());
   for (const std::string& finding : finding_watch_.new_ones(time, findings)) {
     ROS_WARN("%s", finding.c_str());
     statistics_.note(finding, true);

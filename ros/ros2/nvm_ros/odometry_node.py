@@ -20,18 +20,19 @@ from sensor_msgs.msg import Imu, PointCloud2
 from std_srvs.srv import Trigger
 
 from . import messages
-from .clouds import CloudReader, cloud_message
+from .clouds import cloud_message, raw_cloud
 from .finding_watch import FindingWatch
 from .frames import TransformBroadcaster, Transforms
-from .options import input_options, split
+from .options import split
 from .sensor_queue import SensorQueue
-from .topics import choose, profile_for
+from .topics import choose, message_class, profile_for
 
 STANDARD_GRAVITY = 9.80665
 HAVE_POSE = ("tracking", "degenerate", "weak")  # one that can be trusted
 MAX_PATH = 5000  # poses
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 RECEIVING = 10  # scans that may wait before they are received, where none would be counted
+LEARNING = 10  # scans that tell how all are dated, before the first is worked on
 
 
 def columns_of(points: np.ndarray, normals: np.ndarray) -> dict:
@@ -50,8 +51,8 @@ class OdometryNode(Node):
         )
         parameters = {n: p.value for n, p in self.get_parameters_by_prefix("").items()}
         self.options, self._config = split(parameters)
-        self._input = input_options(self._config.pop("input", {}))
-        nvm.Odometry(self._config)  # tells a bad option here
+        self._input = self._config.pop("input", {})
+        nvm.ScanStream(self._input), nvm.Odometry(self._config)  # tell a bad option here
         self._lock = threading.Lock()
         self._reset()
         self._transforms = Transforms(self)
@@ -69,6 +70,7 @@ class OdometryNode(Node):
         self._latencies = []
         self._bad = ""
         self._deadline = None
+        self._epoch = 0
         self._detection = self.create_timer(0.2, self._detect)
         self.create_timer(1.0, self._report)
 
@@ -81,29 +83,35 @@ class OdometryNode(Node):
         self._deadline = self._deadline or time.monotonic() + self.options.detection_time
         if wants_imu and not topics.imu and time.monotonic() < self._deadline:
             return
+        try:
+            kind = message_class(topics.lidar_type)
+        except ValueError as error:
+            self.get_logger().error(f"{topics.lidar}: {error}", throttle_duration_sec=5.0)
+            return
         self._detection.cancel()
         if wants_imu and not topics.imu:
             waited = f"no IMU topic within {self.options.detection_time} s: odometry from scans alone"
             topics.notes.append(f"{waited}; set imu_topic to wait for one")
         for note in topics.notes:
             self.get_logger().warning(note)
-        self._begin(topics.lidar, topics.imu)
+        self._begin(topics, kind)
 
-    def _begin(self, lidar: str, imu: str) -> None:
+    def _begin(self, topics, kind) -> None:
+        lidar, imu = self._lidar_topic, self._imu_topic = topics.lidar, topics.imu
         self.get_logger().info(f"LiDAR: {lidar}, IMU: {imu or 'none'}")
-        self._lidar_topic, self._imu_topic = lidar, imu
+        self._lidar_type = topics.lidar_type
         self._queue = SensorQueue(self.options.queue_size, bool(imu), self.options.imu_timeout)
-        self._reader = CloudReader(self._input.point_time_unit)
+        self._scans = nvm.ScanStream(self._input)
         profile = profile_for(self, lidar, self.options.queue_size + RECEIVING)
-        self.create_subscription(PointCloud2, lidar, self._on_cloud, profile)
+        self.create_subscription(kind, lidar, self._on_cloud, profile, raw=True)
         if imu:
             self.create_subscription(Imu, imu, self._on_imu, profile_for(self, imu, 2000))
         self._worker = threading.Thread(target=self._work, daemon=True)
         self._worker.start()
 
-    def _on_cloud(self, cloud) -> None:
-        stamp = cloud.header.stamp.sec + 1e-9 * cloud.header.stamp.nanosec
-        self._queue.add_cloud(stamp, (time.monotonic(), cloud))
+    def _on_cloud(self, cdr: bytes) -> None:
+        cloud = raw_cloud(cdr, self._lidar_type, time.monotonic())
+        self._queue.add_cloud(cloud.stamp, cloud)
 
     def _on_imu(self, imu) -> None:
         self._imu_frame = imu.header.frame_id
@@ -112,39 +120,59 @@ class OdometryNode(Node):
         self._queue.add_imu(stamp, (w.x, w.y, w.z), (a.x, a.y, a.z))
 
     def _work(self) -> None:
-        epoch = 0
+        waiting, has_learnt = [], False
         while (taken := self._queue.next_cloud()) is not None:
-            if taken[0] != epoch:
-                epoch = taken[0]
-                with self._lock:
-                    self._begin_anew("time has gone back")
-            try:
-                self._process(epoch, *taken[1])
-            except ValueError as error:
-                self._counts["scans that could not be read"] += 1
-                self._bad = str(error)
-                self.get_logger().error(f"a scan is left out: {error}", throttle_duration_sec=5.0)
+            waiting.append(taken)
+            if not has_learnt:
+                if len(waiting) < LEARNING:
+                    continue
+                has_learnt = self._learn([cloud for _, cloud in waiting])
+            for epoch, cloud in waiting:
+                self._take(epoch, cloud)
+            waiting.clear()
 
-    def _process(self, epoch: int, arrival: float, cloud) -> None:
-        points, times = self._reader.read(cloud)
-        end = float(np.nanmax(times)) if len(times) else 0.0
+    def _learn(self, clouds) -> bool:
+        """Judges by the first clouds how all are dated; False when none of them can be read."""
+        messages = []
+        for cloud in clouds:
+            try:
+                messages.append(cloud.ros1())
+            except ValueError:
+                continue  # _take() tells it
+        return self._scans.learn(messages, self._lidar_type) > 0
+
+    def _take(self, epoch: int, cloud) -> None:
+        if epoch != self._epoch:
+            self._epoch = epoch
+            with self._lock:
+                self._begin_anew("time has gone back")
+        try:
+            self._process(epoch, cloud)
+        except (ValueError, RuntimeError) as error:
+            self._counts["scans that could not be read"] += 1
+            self._bad = str(error)
+            self.get_logger().error(f"a scan is left out: {error}", throttle_duration_sec=5.0)
+
+    def _process(self, epoch: int, cloud) -> None:
+        scan = self._scans.convert(cloud.ros1(), cloud.kind)
         with self._lock:
-            needed = self._odometry.imu_needed_until(end) if self._odometry else end
+            needed = self._odometry.imu_needed_until(scan.end) if self._odometry else scan.end
         readings = self._queue.imu_until(epoch, needed)
         if readings is None:
             return
-        if self._odometry is None and not self._start(cloud.header.frame_id.lstrip("/")):
+        if self._odometry is None and not self._start(cloud.frame):
             return
         with self._lock:
             if self._odometry is None:
                 return  # reset meanwhile
             self._add(readings)
-            frame = self._odometry.register(points, times)
+            frame = self._odometry.register(scan)
             self._counts["scans"] += 1
             self._publish(frame)
-            for finding in self._findings.new_ones(end, self._odometry.findings()):
+            findings = [*self._odometry.findings(), *self._scans.findings()]
+            for finding in self._findings.new_ones(scan.end, findings):
                 self.get_logger().warning(finding)
-            self._latencies.append(time.monotonic() - arrival)
+            self._latencies.append(time.monotonic() - cloud.arrival)
 
     def _start(self, lidar_frame: str) -> bool:
         if self._imu_topic and self._imu_frame is None:
@@ -162,7 +190,7 @@ class OdometryNode(Node):
         """Gives readings to the odometry once enough have told the unit of acceleration."""
         self._undecided += readings
         if self._scale is None and len(self._undecided) >= 20:
-            unit = self._input.accel_unit
+            unit = self._input.get("accel_unit", "auto")
             length = np.median([np.linalg.norm(a) for _, _, a in self._undecided])
             is_g = unit == "g" or (unit == "auto" and length < 3.0)
             self._scale = STANDARD_GRAVITY if is_g else 1.0

@@ -22,36 +22,6 @@ class Options:
     save_folder: str = ""  # empty: ~/.ros/nvm
 
 
-@dataclasses.dataclass
-class InputOptions:
-    """Those of the section input that the node needs; others of `nvm run` are refused."""
-
-    point_time_unit: str = "auto"
-    accel_unit: str = "auto"
-
-
-CHOICES = {
-    "point_time_unit": ("auto", "s", "ms", "us", "ns"),
-    "accel_unit": ("auto", "m/s2", "g"),
-}
-
-
-def input_options(section: dict) -> InputOptions:
-    """The section `input` of a configuration.
-
-    Raises
-    ------
-    ValueError
-        For a key that the node does not have, and for a bad value.
-    """
-    for name, value in section.items():
-        if name not in CHOICES:
-            raise ValueError(f"input.{name} is unknown: the node has input.{', input.'.join(CHOICES)}")
-        if value not in CHOICES[name]:
-            raise ValueError(f"input.{name} = {value!r} must be one of {', '.join(CHOICES[name])}")
-    return InputOptions(**section)
-
-
 def split(parameters: dict) -> tuple[Options, dict]:
     """The node's own options, and what remains as the nested configuration of nvm.Odometry, which
     refuses unknown keys. Keys of ROS itself are left out.

@@ -4,7 +4,9 @@
 
 Needs $NVM_SEQUENCE, a folder of `nvm simulate`, and the packages of requirements.txt."""
 
+import copy
 import csv
+import dataclasses
 import os
 import pathlib
 import threading
@@ -16,17 +18,18 @@ import pytest
 import rclpy
 from diagnostic_msgs.msg import DiagnosticArray
 from nav_msgs.msg import Odometry
-from nvm_ros.clouds import CloudReader, cloud_message, likely_unit
+from nvm_ros.clouds import cloud_message, raw_cloud
 from nvm_ros.finding_watch import FindingWatch
 from nvm_ros.messages import stamp_of
-from nvm_ros.odometry_node import HAVE_POSE, OdometryNode
-from nvm_ros.options import Options, input_options, split
+from nvm_ros.odometry_node import HAVE_POSE, LEARNING, OdometryNode
+from nvm_ros.options import Options, split
 from nvm_ros.sensor_queue import SensorQueue
-from nvm_ros.topics import choose
+from nvm_ros.topics import choose, message_class
 from rclpy.executors import MultiThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile
+from rclpy.serialization import serialize_message
 from sensor_msgs.msg import Imu, PointCloud2
 from std_srvs.srv import Trigger
 
@@ -55,19 +58,26 @@ def recording():
     return sorted(messages, key=lambda item: (item[0], isinstance(item[1], PointCloud2)))
 
 
+def raw(cloud):
+    """As a subscription gets it."""
+    return raw_cloud(serialize_message(cloud), "sensor_msgs/msg/PointCloud2", 0.0)
+
+
 def offline(messages):
     """What nvm.Odometry makes of them: readings up to each scan's last point, as nvm run has it."""
-    odometry, reader, poses, waiting = nvm.Odometry(), CloudReader(), [], []
+    odometry, stream, poses, waiting = nvm.Odometry(), nvm.ScanStream(), [], []
+    clouds = [raw(message).ros1() for _, message in messages if isinstance(message, PointCloud2)]
+    assert stream.learn(clouds[:LEARNING]) == LEARNING
     for _, message in messages:
         if isinstance(message, Imu):
             w, a = message.angular_velocity, message.linear_acceleration
             stamp = message.header.stamp.sec + 1e-9 * message.header.stamp.nanosec
             waiting.append((stamp, (w.x, w.y, w.z), (a.x, a.y, a.z)))
             continue
-        points, times = reader.read(message)
-        while waiting and waiting[0][0] <= times.max():
+        scan = stream.convert(clouds.pop(0))
+        while waiting and waiting[0][0] <= odometry.imu_needed_until(scan.end):
             odometry.add_imu(*waiting.pop(0))
-        frame = odometry.register(points, times)
+        frame = odometry.register(scan)
         if frame.status in HAVE_POSE:
             poses.append(frame.T_map_body[:3, 3])
     return np.array(poses)
@@ -175,8 +185,9 @@ def test_begins_anew_when_time_goes_back(world):
 def test_refuses_unknown_parameters():
     rclpy.init()
     try:
-        with pytest.raises(ValueError, match="voxel_size"):
-            OdometryNode(parameter_overrides=[Parameter("map.voxel_siz", value=0.2)])
+        for name, value in (("map.voxel_siz", 0.2), ("input.point_time_units", "s"), ("input.accel_unit", "feet")):
+            with pytest.raises(ValueError, match=name.split(".")[1]):
+                OdometryNode(parameter_overrides=[Parameter(name, value=value)])
     finally:
         rclpy.try_shutdown()
 
@@ -186,11 +197,6 @@ def test_parts_own_parameters_from_those_of_the_odometry():
     assert options.queue_size == 3 and config == {"map": {"voxel_size": 0.2}}
     with pytest.raises(ValueError, match="queue_size"):
         split({"queue_size": "many"})
-    assert input_options({"accel_unit": "g"}).accel_unit == "g"
-    with pytest.raises(ValueError, match="input.scan_rate is unknown"):
-        input_options({"scan_rate": 10})
-    with pytest.raises(ValueError, match="must be one of"):
-        input_options({"accel_unit": "feet"})
 
 
 def test_topics_are_the_first_of_their_types_unless_named():
@@ -203,28 +209,43 @@ def test_topics_are_the_first_of_their_types_unless_named():
     assert choose([], Options(), True, ()).lidar == ""
 
 
-@pytest.mark.parametrize("unit, ticks", [(1.0, 0.1), (1e-3, 100), (1e-6, 100e3), (1e-9, 100e6)])
-def test_finds_the_unit_of_times(unit, ticks):
-    assert likely_unit(ticks, is_whole=unit < 1.0) == unit
+def test_livox_clouds_are_found_and_need_their_package():
+    custom = "livox_ros_driver2/msg/CustomMsg"
+    there = [("/livox/lidar", [custom]), ("/livox/imu", ["sensor_msgs/msg/Imu"])]
+    found = choose(there, Options(), True, ())
+    assert (found.lidar, found.lidar_type, found.imu) == ("/livox/lidar", custom, "/livox/imu")
+    assert message_class("sensor_msgs/msg/PointCloud2") is PointCloud2
+    with pytest.raises(ValueError, match="workspace that has livox_ros_driver2"):
+        message_class(custom)
 
 
-def test_refuses_a_cloud_that_is_shorter_than_it_says():
-    cloud = cloud_message(stamp_of(1.0), "lidar", {name: np.zeros(5, "f4") for name in "xyz"})
-    cloud.width = 6
-    with pytest.raises(ValueError, match="fewer data"):
-        CloudReader().read(cloud)
-
-
-def test_keeps_to_one_of_two_lidars_while_it_goes_on():
-    reader = CloudReader()
+@pytest.mark.parametrize("size", [*range(0, 40, 7), -1])
+def test_a_truncated_cloud_is_an_error(size):
     columns = {name: np.zeros(5, "f4") for name in "xyz"}
-    read = lambda time, frame: reader.read(cloud_message(stamp_of(time), frame, columns))
-    read(1.0, "front")
-    for time in (1.05, 1.1, 1.2):
-        with pytest.raises(ValueError, match="of frame 'rear', not 'front'.*two LiDARs"):
-            read(time, "rear")
-        read(time, "front")
-    read(2.5, "renamed")
+    cdr = serialize_message(cloud_message(stamp_of(1.5), "/lidar", columns))
+    whole = raw_cloud(cdr, "sensor_msgs/msg/PointCloud2", 0.0)
+    assert (whole.stamp, whole.frame) == (1.5, "lidar")
+    with pytest.raises((ValueError, RuntimeError)):
+        nvm.ScanStream().convert(dataclasses.replace(whole, cdr=cdr[:size]).ros1())
+
+
+@needs_sequence
+def test_keeps_to_one_of_two_lidars(world):
+    bench, start = world
+    node = start(queue_size=1000, imu_timeout=20.0)
+    messages = recording()
+    expected = offline(messages)
+    wait_until(lambda: bench.clouds.get_subscription_count() and bench.imu.get_subscription_count())
+    for item in messages:
+        bench.publish([item], pause=0.05)
+        if isinstance(item[1], PointCloud2):
+            other = copy.deepcopy(item[1])
+            other.header.frame_id = "rear"
+            bench.publish([(item[0], other)], pause=0.05)
+    wait_until(lambda: len(bench.odometry) >= len(expected))
+    got = [(m.pose.pose.position.x, m.pose.pose.position.y, m.pose.pose.position.z) for m in bench.odometry]
+    np.testing.assert_array_equal(np.array(got), expected)
+    wait_until(lambda: "two LiDARs on one topic" in node._bad or any("two LiDARs" in s.status[0].message for s in bench.states))
 
 
 def test_findings_are_said_once_whatever_their_numbers():

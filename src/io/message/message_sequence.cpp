@@ -13,9 +13,7 @@
 #include "io/file/file.hpp"
 #include "io/message/message_topics.hpp"
 #include "io/message/ros_messages.hpp"
-#include "io/scan/cloud_stream.hpp"
-#include "io/scan/scan_converter.hpp"
-#include "io/scan/sweep_overlap.hpp"
+#include "io/scan/scan_stream.hpp"
 #include "io/sequence/imu_file.hpp"
 #include "io/sequence/imu_gap_monitor.hpp"
 #include "io/sequence/left_out.hpp"
@@ -42,7 +40,7 @@ class MessageSequence : public SequenceReader {
     info_.skipped_scans = bad_clouds_.count();
     info_.skipped_imu_samples = bad_imu_.count();
     info_.notes.resize(fixed_notes_);
-    const auto notes = converter_.notes();
+    const auto notes = scan_stream_.notes();
     info_.notes.insert(info_.notes.end(), notes.begin(), notes.end());
     for (const auto& note :
          {bad_clouds_.note(),
@@ -130,19 +128,15 @@ class MessageSequence : public SequenceReader {
   std::vector<CloudMessage> first_clouds(const std::string& topic) {
     constexpr std::size_t kCount = 20;
     std::vector<CloudMessage> clouds;
-    CloudStream stream;
     for (const RecordedMessage& message : source_->first(topic, kCount)) {
       try {
-        CloudMessage cloud = read_cloud(message);
-        stream.check(cloud, message.record_time);
-        clouds.push_back(std::move(cloud));
+        clouds.push_back(read_cloud(message));
       } catch (const std::runtime_error&) {
         continue;  // advance() counts it
       }
       clouds.back().records.source = topic;
-      clouds.back().record_time = message.record_time;
     }
-    return clouds;
+    return ScanStream::select(std::move(clouds));
   }
 
   void learn(std::vector<CloudMessage> clouds, const SequenceOptions& options) {
@@ -154,13 +148,10 @@ class MessageSequence : public SequenceReader {
       cloud.stamp = clocks_.cloud.uses_record() ? cloud.record_time : cloud.stamp;
       cloud.record_time -= std::min(clocks_.imu.uses_record() ? 0.0 : clocks_.imu.offset(), 0.0);
     }
-    converter_ = ScanConverter(times);
-    converter_.learn(clouds);
-    if (const std::string overlap = overlap_.learn(converter_.preview(clouds)); !overlap.empty()) {
-      info_.notes.push_back(overlap);
-    }
-    info_.has_point_times = converter_.has_point_times();
-    info_.origin = converter_.origin();
+    scan_stream_ = ScanStream(times);
+    scan_stream_.learn(clouds);
+    info_.has_point_times = scan_stream_.converter().has_point_times();
+    info_.origin = scan_stream_.converter().origin();
   }
 
   /// Reads one message; false at the end. A bad one is counted and left out.
@@ -186,16 +177,15 @@ class MessageSequence : public SequenceReader {
 
   void take_cloud(const RecordedMessage& message) {
     const CloudMessage cloud = read_cloud(message);
-    stream_.check(cloud, message.record_time);
+    scan_stream_.check(cloud);
     const auto stamp = clocks_.cloud.date({cloud.stamp, message.record_time});
     if (!stamp) {
       refuse_time(cloud.stamp);
     }
-    Scan scan = converter_.convert(cloud.records, *stamp);
+    Scan scan = scan_stream_.convert(cloud.records, *stamp);
     if (scan.t_begin <= previous_scan_) {
       refuse_time(cloud.stamp);
     }
-    overlap_.check(scan);
     previous_scan_ = scan.t_begin;
     scans_.push_back(std::move(scan));
   }
@@ -223,9 +213,7 @@ class MessageSequence : public SequenceReader {
   std::unique_ptr<MessageSource> source_;
   mutable SequenceInfo info_;
   std::size_t fixed_notes_ = 0;  ///< the notes before those that change while reading
-  CloudStream stream_;
-  SweepOverlap overlap_;
-  ScanConverter converter_;
+  ScanStream scan_stream_;
   Clocks clocks_;
   LeftOut bad_clouds_{"clouds are"};
   LeftOut bad_imu_{"IMU messages are"};

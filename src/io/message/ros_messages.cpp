@@ -154,7 +154,9 @@ const std::string& bytes_of(const RecordedMessage& message) {
 
 CloudMessage read_cloud(const RecordedMessage& message) {
   const std::string& bytes = bytes_of(message);
-  return is_livox(message.type) ? read_livox_custom(bytes) : read_point_cloud2(bytes);
+  CloudMessage cloud = is_livox(message.type) ? read_livox_custom(bytes) : read_point_cloud2(bytes);
+  cloud.record_time = message.record_time;
+  return cloud;
 }
 
 }  // namespace nvm::io

@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: MIT
+# Copyright (c) 2026 The nvm authors
+"""Messages of ROS 2 as ROS 1 serialises them, which is how the compiled part reads them."""
+
+from __future__ import annotations
+
+import functools
+
+from .imu import IMU, imu_cdr_to_ros1
+from .livox import is_livox, livox_cdr_to_ros1, register_livox
+
+
+def ros1_of(raw: bytes | memoryview, kind: str, typestore=None) -> bytes | memoryview:
+    """A message of ROS 2 (CDR) as ROS 1 serialises it.
+
+    Parameters
+    ----------
+    raw : bytes
+        As a raw subscription or a bag gives it.
+    kind : str
+        ``sensor_msgs/msg/PointCloud2``.
+    typestore : optional
+        Of rosbags, for types that ROS 2 itself does not have.
+
+    Raises
+    ------
+    Exception
+        Of whatever kind rosbags has it, for one that is truncated.
+    """
+    if is_livox(kind):
+        return livox_cdr_to_ros1(raw)
+    short = imu_cdr_to_ros1(raw) if kind == IMU else None
+    return short or (typestore or shared_typestore()).cdr_to_ros1(raw, kind)
+
+
+def ros2_typestore():
+    """A new store with the types of ROS 2 and of Livox's drivers."""
+    from rosbags.typesys import Stores, get_typestore
+
+    store = get_typestore(Stores.ROS2_HUMBLE)
+    register_livox(store)
+    return store
+
+
+shared_typestore = functools.cache(ros2_typestore)  # for readers: whoever adds types makes a new one
