@@ -3,6 +3,7 @@
 #include "app/export_command.hpp"
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -19,31 +20,51 @@ namespace nvm::app {
 
 namespace {
 
+namespace fs = std::filesystem;
+
 struct ExportArguments {
   std::string map;
-  std::string cloud;
+  std::string out;
 };
 
-void write_cloud(const ExportArguments& arguments) {
-  doing("making way for " + arguments.cloud, [&] { remove_leftovers(arguments.cloud); });
+bool is_image(const std::string& path) { return fs::path(path).extension() == ".image"; }
+
+void write_image(const VoxelMap& map, const Eigen::Vector3d& origin, const std::string& path) {
+  save_map_image(map, path);
+  if (!origin.isZero()) {
+    io::write_origin(path, origin);
+  }
+}
+
+void write_export(const ExportArguments& arguments) {
+  doing("making way for " + arguments.out, [&] { remove_leftovers(arguments.out); });
   const Eigen::Vector3d origin = io::read_origin(arguments.map);
-  const io::MapCloud cloud = doing("exporting " + arguments.map, [&] {
-    return io::map_cloud_of(without_sightings(load_map(arguments.map).points()), origin);
-  });
+  const VoxelMap map = doing("loading " + arguments.map, [&] { return load_map(arguments.map); });
   const Interruption interruption;
-  doing("writing " + arguments.cloud, [&] { io::write_map_cloud(arguments.cloud, cloud); });
-  interruption.check(arguments.cloud + " is whole");
+  doing("writing " + arguments.out, [&] {
+    if (is_image(arguments.out)) {
+      write_image(map, origin, arguments.out);
+    } else {
+      io::write_map_cloud(arguments.out, io::map_cloud_of(without_sightings(map.points()), origin));
+    }
+  });
+  interruption.check(arguments.out + " is whole");
 }
 
 }  // namespace
 
 void add_export_command(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("export", "Write a saved map as points with normals and sides");
+  CLI::App* command = app.add_subcommand(
+      "export", "Write a saved map as points with normals and sides, or as an image to be mapped");
   const auto arguments = std::make_shared<ExportArguments>();
   command->add_option("MAP", arguments->map, "A map.nvm file")->required();
-  command->add_option("--out", arguments->cloud, "A .ply or .pcd file")->required();
-  command->callback([arguments] { write_cloud(*arguments); });
+  command
+      ->add_option(
+          "--out",
+          arguments->out,
+          "A .ply or .pcd file, or a .image, which programs load in milliseconds and share")
+      ->required();
+  command->callback([arguments] { write_export(*arguments); });
 }
 
 }  // namespace nvm::app

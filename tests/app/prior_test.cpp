@@ -60,6 +60,22 @@ TEST_F(PriorTest, ExtendsACopy) {
   EXPECT_GE(load_map(path("out/map.nvm")).size(), load_map(path("prior/map.nvm")).size());
 }
 
+TEST_F(PriorTest, AnImageOfTheMapIsAsGoodAsTheMap) {
+  ASSERT_EQ(nvm(in_prior("--start 0,0,0,0 --extend")).status, 0);
+  std::filesystem::rename(path("out"), path("expected"));
+  const std::string image = path("prior/map.image");
+  ASSERT_EQ(nvm("export " + path("prior/map.nvm") + " --out " + image).status, 0);
+  const std::string before = text_of(image);
+  write("prior/cut.image", before.substr(0, before.size() - 1));
+  expect_failure(run("--map " + path("prior/cut.image") + " --start 0,0,0,0"), "truncated");
+  ASSERT_EQ(nvm(run("--map " + image + " --start 0,0,0,0 --extend")).status, 0);
+  for (const std::string name : {"map.nvm", "trajectory.tum"}) {
+    EXPECT_EQ(text_of(path("out/" + name)), text_of(path("expected/" + name))) << name;
+  }
+  EXPECT_EQ(text_of(image), before);
+  EXPECT_EQ(nvm("info " + image).output, nvm("info " + path("prior/map.nvm")).output);
+}
+
 TEST_F(PriorTest, TheMapsOwnOptionsCountAndThatIsSaid) {
   const Outcome outcome = nvm(in_prior("--start 0,0,0,0 --extend --set map.voxel_size=0.5"));
   EXPECT_EQ(outcome.status, 0);

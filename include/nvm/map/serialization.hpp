@@ -17,6 +17,8 @@
 
 #include "nvm/core/target.hpp"
 #include "nvm/map/map_archive.hpp"
+#include "nvm/map/map_image.hpp"
+#include "nvm/map/storage/image_file.hpp"
 #include "nvm/map/voxel_map.hpp"
 
 namespace nvm {
@@ -56,6 +58,23 @@ inline bool flush_to_disk(std::FILE* file) {
 #endif
 }
 
+/// Has `write(FILE*)`, which returns whether it succeeded, fill a file that takes the place of
+/// `path` when it is whole and on the disk. Throws std::runtime_error, naming the path.
+template <class Write>
+void replace_file(const std::string& path, const Write& write) {
+  std::string temporary;
+  File file = create_beside(path, temporary);
+  if (file == nullptr) {
+    throw std::runtime_error(path + ": cannot be written");
+  }
+  bool ok = write(file.get()) && flush_to_disk(file.get());
+  ok = std::fclose(file.release()) == 0 && ok;
+  if (!ok || std::rename(temporary.c_str(), path.c_str()) != 0) {
+    std::remove(temporary.c_str());
+    throw std::runtime_error(path + ": cannot be written");
+  }
+}
+
 /// Throws std::runtime_error unless the bytes of a map can be read back.
 inline void check_archive(const std::vector<std::uint8_t>& bytes, const std::string& path) {
   try {
@@ -77,38 +96,29 @@ inline namespace NVM_TARGET {
 inline void save_map(const VoxelMap& map, const std::string& path) {
   const std::vector<std::uint8_t> bytes = MapArchive::write(map);
   detail::check_archive(bytes, path);
-  std::string temporary;
-  detail::File file = detail::create_beside(path, temporary);
-  if (file == nullptr) {
-    throw std::runtime_error(path + ": cannot be written");
-  }
-  bool ok = std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size() &&
-            detail::flush_to_disk(file.get());
-  ok = std::fclose(file.release()) == 0 && ok;
-  if (!ok || std::rename(temporary.c_str(), path.c_str()) != 0) {
-    std::remove(temporary.c_str());
-    throw std::runtime_error(path + ": cannot be written");
-  }
+  detail::replace_file(path, [&bytes](std::FILE* file) {
+    return std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
+  });
 }
 
-/// Reads a map written by save_map(). Throws std::runtime_error, naming the path and what is wrong,
-/// when the file cannot be read, is truncated, corrupt or something else.
+/// Writes an image of `map` to `path`: the map as it lies in memory, for this build of nvm and
+/// processors like this one. What is to be kept, or sent to others, is what save_map() writes.
+/// Throws std::runtime_error, naming the path, when it cannot be written.
+inline void save_map_image(const VoxelMap& map, const std::string& path) {
+  detail::replace_file(path, [&map](std::FILE* file) { return MapImage::write(map, file); });
+}
+
+/// The map that save_map() or save_map_image() wrote, bit by bit. An image is mapped into memory
+/// instead of read: it is there in milliseconds, and all programs that load it share its pages.
+/// What one of them changes, and the voxels that its queries mark as used, are its own; the file
+/// never changes, and must not be cut off meanwhile (save_map_image() replaces it). Where files
+/// cannot be mapped it is read. Throws std::runtime_error, naming the path and what is wrong, when
+/// the file cannot be read, is truncated, corrupt or something else, or is an image of another
+/// build or for another processor.
 inline VoxelMap load_map(const std::string& path) {
-  const detail::File file(std::fopen(path.c_str(), "rb"));
-  if (file == nullptr) {
-    throw std::runtime_error(path + ": cannot be opened");
-  }
-  std::vector<std::uint8_t> bytes;
-  std::vector<std::uint8_t> block(std::size_t{1} << 20);
-  for (std::size_t count = block.size(); count == block.size();) {
-    count = std::fread(block.data(), 1, block.size(), file.get());
-    bytes.insert(bytes.end(), block.begin(), block.begin() + static_cast<std::ptrdiff_t>(count));
-  }
-  if (std::ferror(file.get()) != 0) {
-    throw std::runtime_error(path + ": cannot be read");
-  }
   try {
-    return MapArchive::read(bytes);
+    const detail::ImageFile file(path);
+    return MapImage::is_image(file) ? MapImage::read(file) : MapArchive::read(file.contents());
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(path + ": " + error.what());
   }

@@ -25,7 +25,8 @@ namespace nvm {
 
 inline namespace NVM_TARGET {
 class MapArchive;
-}
+class MapImage;
+}  // namespace NVM_TARGET
 
 /// The NVM voxel map (paper III-B, spec §3): points with normals in voxels that keep a front and a
 /// back surface, so that the two faces of a thin wall never meet, bounded by an exact LRU. Models
@@ -182,6 +183,7 @@ class VoxelMap {
 
  private:
   friend MapArchive;
+  friend MapImage;
 
   detail::MapEngine engine_;
 };

@@ -99,7 +99,22 @@ class BrickTableShard {
     std::uint32_t brick;
   };
 
+  /// Shows all that an image of the map must hold, for reading or writing (map_image.hpp).
+  template <class Self, class Visitor>
+  static void visit_state(Self& self, Visitor& visitor) {
+    visitor.number(self.shift_, 64 - kFirstBits);
+    visitor.check(self.shift_ >= 64 - kMostBits);
+    visitor.number(self.size_, self.slot_count() / 2);
+    std::uint32_t tables = self.slots_ == nullptr ? 0 : 1;
+    visitor.number(tables, 1);
+    visitor.check(tables == 1 || self.size_ == 0);
+    if (tables == 1) {
+      visitor.array(self.slots_, self.slot_count(), self.slot_count());
+    }
+  }
+
   static constexpr int kFirstBits = 4;
+  static constexpr int kMostBits = 34;  // twice the bricks that 32 bits count
 
  private:
   std::size_t slot_count() const noexcept { return std::size_t{1} << (64 - shift_); }
@@ -165,6 +180,13 @@ class BrickTable {
       sum += shard.bytes();
     }
     return sum;
+  }
+
+  template <class Self, class Visitor>
+  static void visit_state(Self& self, Visitor& visitor) {
+    for (auto& shard : self.shards_) {
+      BrickTableShard::visit_state(shard, visitor);
+    }
   }
 
   /// The most that a table of `bricks` bricks owns, while it grows, wherever they fall.

@@ -22,43 +22,61 @@ inline constexpr std::uint32_t kNone = 0xffffffffU;
 
 inline constexpr std::size_t kArrayAlignment = 64;
 
+/// Gives memory back to `Allocator`, or to whoever else it came from (map_image.hpp).
+template <class Allocator>
 struct ArrayDeleter {
   void operator()(void* memory) const noexcept {
+    release == nullptr ? Allocator::release(memory) : release(memory, bytes);
+  }
+
+  void (*release)(void* memory, std::size_t bytes) noexcept = nullptr;
+  std::size_t bytes = 0;
+};
+
+/// Elements that are neither constructed nor touched: the operating system commits a page when it
+/// is first written, so a map costs what it holds, not what it may hold.
+struct AlignedNew {
+  /// Throws std::bad_alloc.
+  template <class T>
+  static std::unique_ptr<T[], ArrayDeleter<AlignedNew>> allocate(std::size_t count) {
+    static_assert(std::is_trivially_destructible_v<T> && alignof(T) <= kArrayAlignment);
+    if (count > std::numeric_limits<std::size_t>::max() / sizeof(T)) {
+      throw std::bad_alloc();
+    }
+    void* memory = ::operator new (count * sizeof(T), std::align_val_t{kArrayAlignment});
+    return std::unique_ptr<T[], ArrayDeleter<AlignedNew>>(static_cast<T*>(memory));
+  }
+  static void release(void* memory) noexcept {
     ::operator delete (memory, std::align_val_t{kArrayAlignment});
   }
 };
-/// An array whose elements are not constructed.
 template <class T>
-using RawArray = std::unique_ptr<T[], ArrayDeleter>;
+using RawArray = std::unique_ptr<T[], ArrayDeleter<AlignedNew>>;
 
-struct FreeDeleter {
-  void operator()(void* memory) const noexcept { std::free(memory); }
+/// Elements of all-zero bytes, committed when first written.
+struct ZeroedMalloc {
+  /// Throws std::bad_alloc.
+  template <class T>
+  static std::unique_ptr<T[], ArrayDeleter<ZeroedMalloc>> allocate(std::size_t count) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    void* memory = std::calloc(count, sizeof(T));
+    if (memory == nullptr) {
+      throw std::bad_alloc();
+    }
+    return std::unique_ptr<T[], ArrayDeleter<ZeroedMalloc>>(static_cast<T*>(memory));
+  }
+  static void release(void* memory) noexcept { std::free(memory); }
 };
 template <class T>
-using ZeroedArray = std::unique_ptr<T[], FreeDeleter>;
+using ZeroedArray = std::unique_ptr<T[], ArrayDeleter<ZeroedMalloc>>;
 
-/// Room for `count` elements that are neither constructed nor touched: the operating system commits
-/// a page when it is first written, so a map costs what it holds, not what it may hold. Throws
-/// std::bad_alloc.
 template <class T>
 RawArray<T> allocate_uninitialized(std::size_t count) {
-  static_assert(std::is_trivially_destructible_v<T> && alignof(T) <= kArrayAlignment);
-  if (count > std::numeric_limits<std::size_t>::max() / sizeof(T)) {
-    throw std::bad_alloc();
-  }
-  void* memory = ::operator new (count * sizeof(T), std::align_val_t{kArrayAlignment});
-  return RawArray<T>(static_cast<T*>(memory));
+  return AlignedNew::allocate<T>(count);
 }
-
-/// `count` elements of all-zero bytes, committed when first written. Throws std::bad_alloc.
 template <class T>
 ZeroedArray<T> allocate_zeroed(std::size_t count) {
-  static_assert(std::is_trivially_copyable_v<T>);
-  void* memory = std::calloc(count, sizeof(T));
-  if (memory == nullptr) {
-    throw std::bad_alloc();
-  }
-  return ZeroedArray<T>(static_cast<T*>(memory));
+  return ZeroedMalloc::allocate<T>(count);
 }
 
 /// Hands out and takes back the indices 0 to capacity - 1, the most recently returned first, so
@@ -99,11 +117,20 @@ class IndexAllocator {
     free_ = kNone;
   }
 
+  std::size_t capacity() const noexcept { return capacity_; }
   std::size_t left() const noexcept { return capacity_ - taken_; }
   bool exhausted() const noexcept { return free_ == kNone && used_ == capacity_; }
   /// Every index handed out so far is below this.
   std::uint32_t high_water() const noexcept { return used_; }
   std::uint32_t taken() const noexcept { return taken_; }
+
+  /// Shows all that an image of the map must hold, for reading or writing (map_image.hpp).
+  template <class Self, class Visitor>
+  static void visit_state(Self& self, Visitor& visitor) {
+    visitor.number(self.used_, self.capacity_);
+    visitor.number(self.taken_, self.used_);
+    visitor.index(self.free_, self.used_);
+  }
 
  private:
   std::uint32_t capacity_ = 0;

@@ -25,8 +25,7 @@ inline namespace NVM_TARGET {
 /// which they joined its list.
 ///
 /// The lists' ends are kept in a ring of epochs. When the oldest voxel is more epochs old than the
-/// ring is long, the epochs are renumbered without gaps, which at least `capacity` epochs must pass
-/// between.
+/// ring is long, the epochs are renumbered without gaps: at most once in `capacity` epochs.
 class Recency {
  public:
   Recency() = default;
@@ -145,6 +144,20 @@ class Recency {
     return possible;
   }
 
+  /// For images (map_image.hpp): `used` of `capacity` voxels have ever been.
+  template <class Self, class Visitor>
+  static void visit_state(Self& self, Visitor& visitor, std::uint32_t used, std::size_t capacity) {
+    visitor.number(self.count_, used);
+    visitor.number(self.epoch_, kLastEpoch);
+    visitor.number(self.oldest_, self.epoch_);
+    visitor.check(self.epoch_ - self.oldest_ <= self.ring_mask_);
+    visitor.array(self.nodes_, used, capacity);
+    for (std::uint32_t epoch = self.oldest_; epoch <= self.epoch_; ++epoch) {
+      visitor.number(self.list(epoch).first_plus_one, used);
+      visitor.number(self.list(epoch).last_plus_one, used);
+    }
+  }
+
   /// The epoch of the last use, for comparing two voxels.
   std::uint32_t stamp(std::uint32_t id) const noexcept {
     return nodes_[id].stamp.load(std::memory_order_relaxed);
@@ -246,8 +259,7 @@ class Recency {
   void renumber() noexcept {
     settle();
     std::uint32_t next_epoch = kFirstEpoch;
-    // The voxels are chained into one list in order, then dealt out again: lists of old and new
-    // epochs share the ring.
+    // Chained into one list in order, then dealt out again: old and new epochs share the ring.
     List all;
     for (std::uint32_t epoch = oldest_; epoch <= epoch_; ++epoch) {
       List& source = list(epoch);

@@ -141,6 +141,19 @@ class SurfaceStorage {
     }
   }
 
+  /// Shows all that an image of the map must hold, for reading or writing (map_image.hpp).
+  template <class Self, class Visitor>
+  static void visit_state(Self& self, Visitor& visitor) {
+    IndexAllocator::visit_state(self.chunk_ids_, visitor);
+    visitor.number(self.point_count_, self.chunk_ids_.taken() * std::size_t{kLanes});
+    const std::size_t used = self.chunk_ids_.high_water();
+    visitor.array(self.chunks_, used, self.chunk_ids_.capacity());
+    visitor.array(self.normals_, used, self.chunk_ids_.capacity());
+    if (self.counts_merged()) {
+      visitor.array(self.merged_, used, self.chunk_ids_.capacity());
+    }
+  }
+
  protected:
   std::size_t chunk_bytes() const noexcept { return chunk_ids_.high_water() * bytes_per_chunk_; }
   void clear_surfaces() noexcept {

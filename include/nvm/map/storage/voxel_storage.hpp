@@ -154,6 +154,18 @@ class VoxelStorage : public SurfaceStorage {
            table_.bytes() + chunk_bytes();
   }
 
+  template <class Self, class Visitor>
+  static void visit_state(Self& self, Visitor& visitor) {
+    SurfaceStorage::visit_state(self, visitor);
+    IndexAllocator::visit_state(self.voxel_ids_, visitor);
+    IndexAllocator::visit_state(self.brick_ids_, visitor);
+    const std::uint32_t voxels = self.voxel_high_water();
+    visitor.array(self.places_, voxels, self.voxel_ids_.capacity());
+    Recency::visit_state(self.recency_, visitor, voxels, self.voxel_ids_.capacity());
+    BrickTable::visit_state(self.table_, visitor);
+    visitor.array(self.bricks_, self.brick_high_water(), self.brick_ids_.capacity());
+  }
+
   // --- changing
 
   /// Whether `points` points fit, wherever they are.
