@@ -10,6 +10,7 @@
 #include "app/doing.hpp"
 #include "app/interruption.hpp"
 #include "app/results.hpp"
+#include "io/file/pending_files.hpp"
 #include "io/result/map_cloud.hpp"
 #include "io/result/map_files.hpp"
 #include "io/result/map_origin.hpp"
@@ -30,10 +31,10 @@ struct ExportArguments {
 bool is_image(const std::string& path) { return fs::path(path).extension() == ".image"; }
 
 void write_image(const VoxelMap& map, const Eigen::Vector3d& origin, const std::string& path) {
-  save_map_image(map, path);
-  if (!origin.isZero()) {
-    io::write_origin(path, origin);
-  }
+  io::PendingFiles files(path);
+  save_map_image(map, files.temporary());
+  io::write_origin_unless_told(path, origin, files.temporary());
+  files.commit();
 }
 
 void write_export(const ExportArguments& arguments) {

@@ -97,9 +97,7 @@ void print_fit(
 void write(const lio::LioMap& map, const Eigen::Vector3d& origin, const std::string& out) {
   io::PendingFiles files(out);
   io::write_map_files(map, origin, fs::path(files.temporary()).replace_extension("").string());
-  if (io::read_origin(out) != origin) {  // as other files in the folder have it
-    io::write_origin(files.temporary(), origin);
-  }
+  io::write_origin_unless_told(out, origin, files.temporary());
   files.commit();
 }
 

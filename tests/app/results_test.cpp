@@ -243,6 +243,25 @@ TEST_F(ResultsTest, PosesInUtmGetALocalOriginThatIsPutBack) {
   EXPECT_THAT(nvm("info " + path("out/map.nvm")).output, HasSubstr(" 5531"));
 }
 
+// A folder may hold the origin of another map, and an image the place of an older one.
+TEST_F(ResultsTest, AnImageHasTheOriginOfItsMapWhereverItIsPut) {
+  ASSERT_EQ(nvm(map("poses.tum")).status, 0);
+  const std::string local = nvm("info " + path("out/map.nvm")).output;
+  std::filesystem::create_directory(path("images"));
+  write("images/map_origin.txt", "100 200 300\n");
+  const std::string image = path("images/room.image");
+  ASSERT_EQ(nvm("export " + path("out/map.nvm") + " --out " + image).status, 0);
+  EXPECT_EQ(nvm("info " + image).output, local);
+  write("out/map_origin.txt", "1000 0 0\n");
+  const std::string moved = nvm("info " + path("out/map.nvm")).output;
+  ASSERT_NE(moved, local);
+  ASSERT_EQ(nvm("export " + path("out/map.nvm") + " --out " + image).status, 0);
+  EXPECT_EQ(nvm("info " + image).output, moved);
+  std::filesystem::remove(path("out/map_origin.txt"));
+  ASSERT_EQ(nvm("export " + path("out/map.nvm") + " --out " + image).status, 0);
+  EXPECT_EQ(nvm("info " + image).output, local);
+}
+
 TEST_F(ResultsTest, ScansAndResultsLieApart) {
   const Outcome outcome = nvm("run " + path("scans") + " --out " + path("scans"));
   EXPECT_EQ(outcome.status, 1);

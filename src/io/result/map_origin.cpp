@@ -50,6 +50,13 @@ void write_origin(const std::string& map, const Eigen::Vector3d& origin) {
   file.commit();
 }
 
+void write_origin_unless_told(
+    const std::string& map, const Eigen::Vector3d& origin, const std::string& pending) {
+  if (read_origin(map) != origin) {
+    write_origin(pending, origin);
+  }
+}
+
 Eigen::Vector3d read_origin(const std::string& map) {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   fs::path path = origin_file(map);

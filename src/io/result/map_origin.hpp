@@ -20,6 +20,11 @@ Trajectory moved(Trajectory trajectory, const Eigen::Vector3d& offset);
 /// std::runtime_error.
 void write_origin(const std::string& map, const Eigen::Vector3d& origin);
 
+/// Writes `origin` beside `pending`, a file that will be moved to `map`, unless what lies beside
+/// `map` tells it already. Throws std::runtime_error.
+void write_origin_unless_told(
+    const std::string& map, const Eigen::Vector3d& origin, const std::string& pending);
+
 /// The origin [m] that was written beside the map file `map`, or else beside a map.nvm there, which
 /// may have been renamed; zero when there is none. Throws std::runtime_error when the file is
 /// malformed.
