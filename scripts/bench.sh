@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Builds the benchmarks for this machine and runs them; arguments go to benchmarks/run.py.
 set -euo pipefail
+"$(dirname "$0")/setup.sh"
 source "$(dirname "$0")/environment.sh"
-scripts/setup.sh
 
 # small_gicp's headers, from its source package, to be measured beside nvm; without them its rows are left out.
 rivals=build/rivals

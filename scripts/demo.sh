@@ -2,8 +2,8 @@
 # Walks a simulated LiDAR around a wall of 5 cm and draws what becomes of it: with an odometry in the shape of FAST_LIO, with the
 # same on nvm's map, and with nvm's own.
 set -euo pipefail
+"$(dirname "$0")/setup.sh"
 source "$(dirname "$0")/environment.sh"
-scripts/setup.sh
 cmake --preset release
 cmake --build --preset release --target nvm_program nvm_fast_lio_shape
 

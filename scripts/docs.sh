@@ -2,8 +2,8 @@
 # Makes the site in build/docs: the pages of docs/, the Python package from its docstrings, the C++ interface from its headers.
 # A warning is an error, a link to nothing is a warning.
 set -euo pipefail
+"$(dirname "$0")/setup.sh" --developer
 source "$(dirname "$0")/environment.sh"
-scripts/setup.sh --developer
 tools=build/docs-tools
 if ! cmp -s docs/requirements.txt $tools/requirements.txt; then
   python3 -m venv --clear $tools

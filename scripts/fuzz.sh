@@ -3,11 +3,11 @@
 #   scripts/fuzz.sh [SECONDS [TARGET...]]     60 s of every target unless named
 # What it finds interesting is kept in build/fuzz/corpus, findings are files build/fuzz/findings/TARGET-*.
 set -euo pipefail
+"$(dirname "$0")/setup.sh" --developer
 source "$(dirname "$0")/environment.sh"
 seconds=${1:-60}
 targets=("${@:2}")
 ((${#targets[@]})) || mapfile -t targets < <(basename -s _target.cpp tests/fuzz/*_target.cpp)
-scripts/setup.sh --developer
 cmake --preset fuzz
 cmake --build --preset fuzz
 
