@@ -42,7 +42,8 @@ std::string RangeScale::finding() const {
   return printed(
       "the scans tell %.3g (+- %.2g) times the motion that the accelerometer feels, and that feels "
       "gravity as it should: the ranges are off by this factor (feet for metres give 3.28), and so "
-      "are poses and map. Let the LiDAR's driver give metres, or calibrate it",
+      "are poses and map; or the LiDAR is not where input.T_imu_lidar has it on the IMU. Let the "
+      "LiDAR's driver give metres, calibrate it, or measure that",
       factor,
       2.0 * deviation);
 }
