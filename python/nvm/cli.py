@@ -7,21 +7,26 @@ from __future__ import annotations
 import argparse
 import os
 import sys
+import tempfile
 
 from . import __version__
 from .bags import BagError, Recording, is_bag
+from .folders import is_url
 
 
 def info(arguments) -> None:
     """Says what a recording, a saved map or a tile store holds."""
     from .info import described
 
-    if is_bag(arguments.path):
+    if is_bag(arguments.path) and not is_url(arguments.path):
         with Recording(arguments.path) as recording:
             print(described(recording))
         return
     from . import load, open_store
 
+    if is_url(arguments.path):
+        describe_store(open_store(arguments.path), arguments.check)
+        return
     if os.path.isdir(arguments.path):
         if not os.path.exists(os.path.join(arguments.path, "index.json")):
             raise RuntimeError(
@@ -116,6 +121,18 @@ def evaluate(argv: list[str]) -> int:
     return code
 
 
+def walls(argv: list[str]) -> int:
+    """Runs the program; a store behind a URL is copied for it."""
+    from . import open_store
+    from .program import run_program
+
+    with tempfile.TemporaryDirectory(prefix="nvm-store-") as folder:
+        for i in (i for i, argument in enumerate(argv) if is_url(argument)):
+            open_store(argv[i]).copy_to(folder)
+            argv = [*argv[:i], folder, *argv[i + 1 :]]
+        return run_program(argv)
+
+
 def value_of(option: str, argv: list[str]) -> str | None:
     """What follows an option on a command line."""
     reader = argparse.ArgumentParser(add_help=False, allow_abbrev=False)
@@ -152,7 +169,7 @@ def parser() -> argparse.ArgumentParser:
     top.add_argument("--version", action="version", version=f"nvm {__version__}")
     commands = top.add_subparsers(required=True, metavar="COMMAND")
     command = commands.add_parser("info", help="say what a recording or a saved map holds")
-    command.add_argument("path", help="a bag of ROS 1 or ROS 2, a map.nvm file, or a tile store")
+    command.add_argument("path", help="a bag of ROS 1 or ROS 2, a map.nvm file, or a tile store or its URL")
     command.add_argument("--check", action="store_true", help="read every tile of a store")
     command.set_defaults(run=info)
     command = commands.add_parser("view", help="show the results of a run in rerun")
@@ -180,7 +197,7 @@ def main(argv: list[str] | None = None) -> int:
         if argv and argv[0] in PROGRAM_COMMANDS:
             from .program import run_program
 
-            ours = {"run": run_watched, "evaluate": evaluate}
+            ours = {"run": run_watched, "evaluate": evaluate, "walls": walls}
             return ours.get(argv[0], run_program)(argv)
         arguments = parser().parse_args(argv)
         arguments.run(arguments)

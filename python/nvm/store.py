@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 The nvm authors
-"""A map in tiles, larger than one machine's memory: a folder with a ``.nvm`` file per tile and an index.
+"""A map in tiles, larger than one machine's memory: a folder, on a disk or behind a URL, with a ``.nvm`` file per tile
+and an index.
 
 docs/living_maps.md describes the format.
 """
@@ -8,19 +9,19 @@ docs/living_maps.md describes the format.
 from __future__ import annotations
 
 import json
-import os
 import zlib
 from collections import OrderedDict
-from pathlib import Path
 
 import numpy as np
 
-from ._nvm import VoxelMap, load
+from ._nvm import VoxelMap
+from .folders import LocalFolder, RemoteFolder, folder_at
 
 FORMAT = "nvm-store"
 VERSION = 1
 INDEX = "index.json"
 FOLDER = "tiles"
+PARTS = "parts"  # folder of a build that goes on
 FARTHEST = 1e9  # [m], beyond any tile
 
 Tile = tuple[int, int, int]
@@ -30,31 +31,16 @@ def tile_name(tile: Tile) -> str:
     return f"{FOLDER}/{'_'.join(map(str, tile))}.nvm"
 
 
-def checksum(path: Path) -> int:
-    """CRC-32 of the bytes of a file."""
-    crc = 0
-    with path.open("rb") as file:
-        while block := file.read(1 << 20):
-            crc = zlib.crc32(block, crc)
-    return crc
+def bytes_of(voxel_map: VoxelMap) -> bytes:
+    """What `VoxelMap.save` would write."""
+    return voxel_map.__getstate__()
 
 
-def write_durably(path: Path, text: str) -> None:
-    """Puts `text` at `path` all or not at all, whatever is killed or loses power."""
-    temporary = path.with_name(f"{path.name}.{os.getpid()}.part")
-    try:
-        with temporary.open("w") as file:
-            file.write(text)
-            file.flush()
-            os.fsync(file.fileno())
-        os.replace(temporary, path)
-    finally:
-        temporary.unlink(missing_ok=True)
-    folder = os.open(path.parent, os.O_RDONLY)
-    try:
-        os.fsync(folder)
-    finally:
-        os.close(folder)
+def map_of(data: bytes) -> VoxelMap:
+    """What `load` would read. RuntimeError when `data` are no map."""
+    voxel_map = VoxelMap.__new__(VoxelMap)
+    voxel_map.__setstate__(data)
+    return voxel_map
 
 
 class Store:
@@ -62,7 +48,7 @@ class Store:
 
     Attributes
     ----------
-    path : Path
+    path : Path, or str of a URL
     options : dict
         Of each tile's map.
     tile_size : float
@@ -72,11 +58,12 @@ class Store:
     """
 
     def __init__(self, path, *, max_tiles: int = 16):
-        """Opens the store in the folder `path`; at most `max_tiles` tiles stay in memory."""
+        """Opens the store in the folder at `path`, or at a URL; at most `max_tiles` tiles stay in memory."""
         if max_tiles < 1:
             raise ValueError(f"max_tiles must be 1 or more, not {max_tiles}")
-        self.path = Path(path)
-        index = read_index(self.path)
+        self._folder = folder_at(path)
+        self.path = self._folder.path
+        index = read_index(self._folder)
         self.options: dict = index["options"]
         self.tile_size: float = index["tile_size"]
         self.tiles: dict[Tile, dict] = {tuple(entry["tile"]): entry for entry in index["tiles"]}
@@ -96,12 +83,35 @@ class Store:
 
     def _with_points(self, tile: Tile) -> tuple[VoxelMap, np.ndarray]:
         if tile not in self._loaded:
-            voxel_map = load(str(self.path / self.tiles[tile]["file"]))
+            voxel_map = self._read(self.tiles[tile])
             self._loaded[tile] = (voxel_map, voxel_map.points)
             if len(self._loaded) > self._max_tiles:
                 self._loaded.popitem(last=False)
         self._loaded.move_to_end(tile)
         return self._loaded[tile]
+
+    def _read(self, entry: dict) -> VoxelMap:
+        """The map of a tile. OSError when it cannot be read, RuntimeError when it is not what was written."""
+        data = self._bytes(entry)
+        try:
+            return map_of(data)
+        except RuntimeError as error:
+            raise RuntimeError(f"{self._folder}/{entry['file']}: {error}") from error
+
+    def _bytes(self, entry: dict) -> bytes:
+        data = self._folder.read(entry["file"])
+        if len(data) != entry["bytes"] or zlib.crc32(data) != entry["crc32"]:
+            name = f"{self._folder}/{entry['file']}"
+            raise RuntimeError(f"{name}: is not the file that the index tells of: build again")
+        return data
+
+    def copy_to(self, path) -> None:
+        """Copies the store into the folder at `path`."""
+        folder = folder_at(path)
+        folder.make(FOLDER)
+        for entry in self.tiles.values():
+            folder.write(entry["file"], self._bytes(entry))
+        folder.write(INDEX, self._folder.read(INDEX))
 
     def tile_of(self, points: np.ndarray) -> np.ndarray:
         """(M, 3) int64: the tiles in which `points` (M, 3) [m] lie."""
@@ -144,32 +154,31 @@ class Store:
         """Reads every tile; what is wrong, a line each."""
         problems = []
         for entry in self.tiles.values():
-            path = self.path / entry["file"]
             try:
-                if path.stat().st_size != entry["bytes"] or checksum(path) != entry["crc32"]:
-                    problems.append(f"{path}: is not the file that the index tells of: build again")
-                else:
-                    load(str(path))
+                self._read(entry)
             except (OSError, RuntimeError) as error:
                 problems.append(str(error))
         return problems
 
 
-def read_index(path: Path) -> dict:
+def read_index(folder: LocalFolder | RemoteFolder) -> dict:
     """The index of a store; RuntimeError, in one line, when there is none that this nvm reads."""
-    file = path / INDEX
-    if not file.is_file():
-        begun = (path / FOLDER).is_dir()
-        why = "its build has not come to its end: build again" if begun else f"has no {INDEX}"
-        raise RuntimeError(f"{path}: is no store: {why}")
+    file = f"{folder}/{INDEX}"
     try:
-        index = json.loads(file.read_text())
+        text = folder.read(INDEX)
+    except (FileNotFoundError, NotADirectoryError) as error:
+        why = "its build has not come to its end: build again" if has_begun(folder) else f"has no {INDEX}"
+        raise RuntimeError(f"{folder}: is no store: {why}") from error
+    try:
+        index = json.loads(text)
         if index["format"] != FORMAT:
             raise ValueError
         version = int(index["version"])
         if version <= VERSION:
             for entry in index["tiles"]:
-                _ = entry["tile"], entry["file"], entry["points"], entry["bytes"], entry["crc32"]
+                _ = entry["points"], entry["bytes"], entry["crc32"]
+                if entry["file"] != tile_name(tuple(map(int, entry["tile"]))):
+                    raise ValueError  # and nothing outside the store is read
             _ = index["options"], index["tile_size"]
     except (ValueError, KeyError, TypeError) as error:
         raise RuntimeError(f"{file}: is not the index of a store, or is damaged") from error
@@ -178,9 +187,18 @@ def read_index(path: Path) -> dict:
     return index
 
 
-def open_store(path, *, max_tiles: int = 16) -> Store:
-    """Opens what `nvm.distributed.build` made, as one map. RuntimeError when it is no store.
+def has_begun(folder: LocalFolder | RemoteFolder) -> bool:
+    """Whether a build has left something there."""
+    try:
+        return bool(folder.sizes(FOLDER) or folder.sizes(PARTS))
+    except (OSError, NotImplementedError):  # where files are not listed, as on a web server
+        return False
 
-    At most `max_tiles` tiles, those that were used last, stay in memory.
+
+def open_store(path, *, max_tiles: int = 16) -> Store:
+    """Opens what `nvm.distributed.build` made, as one map.
+
+    `path` is that of a folder, or a URL that fsspec opens: ``s3://bucket/campus``. RuntimeError when it is no store,
+    OSError when it cannot be read. At most `max_tiles` tiles, those that were used last, stay in memory.
     """
     return Store(path, max_tiles=max_tiles)

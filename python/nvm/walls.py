@@ -11,6 +11,7 @@ import warnings
 import numpy as np
 
 from . import _nvm
+from .folders import is_url
 from .store import INDEX, Store
 
 
@@ -21,7 +22,7 @@ def survey(map, out=None, **options) -> dict:
     ----------
     map : VoxelMap, Store, (points, normals) or path
         Points (N, 3) [m], and normals (N, 3) of unit length that look at where a point was seen from. The path is that of
-        a store, of a map.nvm, or of a folder of ``nvm run``, whose keyframes tell which sides were seen in one pass, and
+        a store (or its URL), of a map.nvm, or of a folder of ``nvm run``, whose keyframes tell which sides were seen in one pass, and
         how far poses drift between.
     out : path, optional
         Folder for what ``nvm walls`` writes: list, plan and page.
@@ -46,7 +47,7 @@ def survey(map, out=None, **options) -> dict:
     """
     run_map = ""
     if isinstance(map, (str, os.PathLike)):
-        if os.path.isfile(os.path.join(map, INDEX)):
+        if is_url(map) or os.path.isfile(os.path.join(map, INDEX)):
             map = Store(map)
         else:
             run_map = os.path.join(map, "map.nvm") if os.path.isdir(map) else os.fspath(map)

@@ -8,16 +8,16 @@ depends on what they are given alone, and takes its place all at once.
 
 from __future__ import annotations
 
+import io
 import itertools
-import os
-import uuid
+import zlib
 from dataclasses import dataclass, field
-from pathlib import Path
 
 import numpy as np
 
 from .._nvm import NormalEstimator, VoxelMap
-from ..store import FOLDER, Tile, checksum, tile_name
+from ..folders import LocalFolder, RemoteFolder, folder_at
+from ..store import PARTS, Tile, bytes_of, map_of, tile_name
 from .session import read_scan
 
 MARGIN_VOXELS = 2  # a query sees one voxel around its own, whose points may heed the next ones
@@ -27,8 +27,7 @@ MARGIN_VOXELS = 2  # a query sees one voxel around its own, whose points may hee
 class Plan:
     """What all tasks of a build share."""
 
-    store: str
-    parts: str  # folder of the cut scans
+    store: str  # path or URL
     tile_voxels: int  # edge of a tile
     map_options: dict = field(default_factory=dict)
     normal_options: dict = field(default_factory=dict)
@@ -73,25 +72,37 @@ def cut(plan: Plan, number: int, scans: list) -> dict[Tile, str]:
 
 
 def write_part(plan: Plan, number: int, tile: Tile, pieces: list) -> str:
-    path = Path(plan.parts) / f"{'_'.join(map(str, tile))}.{number}.npz"
-    temporary = path.with_name(f"{uuid.uuid4().hex}.part")
-    with temporary.open("wb") as file:
-        np.savez(
-            file,
-            points=np.concatenate([points for points, _, _ in pieces]),
-            normals=np.concatenate([normals for _, normals, _ in pieces]),
-            poses=np.stack([pose for _, _, pose in pieces]),
-            ends=np.cumsum([len(points) for points, _, _ in pieces]),
-        )
-    os.replace(temporary, path)
-    return str(path)
+    name = f"{PARTS}/{'_'.join(map(str, tile))}.{number}.npz"
+    file = io.BytesIO()
+    np.savez(
+        file,
+        points=np.concatenate([points for points, _, _ in pieces]),
+        normals=np.concatenate([normals for _, normals, _ in pieces]),
+        poses=np.stack([pose for _, _, pose in pieces]),
+        ends=np.cumsum([len(points) for points, _, _ in pieces]),
+    )
+    folder_at(plan.store).write(name, file.getvalue(), is_to_last=False)
+    return name
+
+
+def read_part(folder: LocalFolder | RemoteFolder, name: str) -> bytes:
+    try:
+        return folder.read(name)
+    except FileNotFoundError as error:
+        raise RuntimeError(lacking(f"{folder}/{name}")) from error
+
+
+def lacking(file: str) -> str:
+    """What is wrong when a file that a task has written is not there for another."""
+    return f"{file}: was written, but is not there: workers see another folder of this name"
 
 
 def build_tile(plan: Plan, tile: Tile, parts: list[str]) -> dict | None:
     """Builds and saves the map of a tile from `parts`, in their order; None when nothing is in it."""
+    folder = folder_at(plan.store)
     voxel_map = VoxelMap(**plan.map_options)
     for part in parts:
-        with np.load(part, allow_pickle=False) as piece:
+        with np.load(io.BytesIO(read_part(folder, part)), allow_pickle=False) as piece:
             points, normals = piece["points"], piece["normals"]
             begin = 0
             for pose, end in zip(piece["poses"], piece["ends"]):
@@ -107,13 +118,13 @@ def build_tile(plan: Plan, tile: Tile, parts: list[str]) -> dict | None:
     if not inside:
         return None
     name = tile_name(tile)
-    path = Path(plan.store) / name
-    (Path(plan.store) / FOLDER).mkdir(exist_ok=True)
-    voxel_map.save(str(path))
+    data = bytes_of(voxel_map)
+    map_of(data)  # as `save` does: what cannot be read back is not written
+    folder.write(name, data)
     return {
         "tile": list(tile),
         "file": name,
         "points": inside,
-        "bytes": path.stat().st_size,
-        "crc32": checksum(path),
+        "bytes": len(data),
+        "crc32": zlib.crc32(data),
     }
