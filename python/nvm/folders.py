@@ -117,9 +117,10 @@ def naming(url: str):
     try:
         yield
     except Exception as error:
-        lines = str(error).strip().splitlines()
-        kind = FileNotFoundError if isinstance(error, FileNotFoundError) else OSError
-        problem = "does not exist" if kind is FileNotFoundError else lines[0] if lines else type(error).__name__
+        lines = str(error).strip().splitlines() or [type(error).__name__]
+        is_missing = isinstance(error, FileNotFoundError)
+        problem = "does not exist" if is_missing and " " not in lines[0] else lines[0]  # and not its name again
+        kind = FileNotFoundError if is_missing else OSError
         raise kind(f"{url}: {problem}") from error
 
 
