@@ -9,7 +9,8 @@ import math
 
 import numpy as np
 
-from .bags import BagError, Recording, Topic
+from .bags import BagError, Recording
+from .topics import Topic
 from .transforms import TransformTree, quaternion
 
 
@@ -42,10 +43,11 @@ def choose(recording: Recording, lidar: str = "", imu: str = "") -> Choice:
     clouds = [t for t in topics if t.is_cloud and t.count]
     imus = [t for t in topics if t.is_imu and t.count]
     if not clouds:
-        kinds = ", ".join(sorted({t.type for t in topics if t.count})) or "nothing"
+        kinds = ", ".join(sorted({kind_of(t) for t in topics if t.count})) or "nothing"
         empty = "".join(f"; {t.name} has no messages" for t in topics if t.is_cloud)
+        wrong = "".join(f"; {problem}" for problem in recording.problems)
         raise BagError(
-            f"{recording.path}: has no clouds (PointCloud2 or Livox CustomMsg); it holds: {kinds}{empty}"
+            f"{recording.path}: has no clouds (PointCloud2 or Livox CustomMsg); it holds: {kinds}{empty}{wrong}"
         )
     chosen, why = pick(recording, "lidar", clouds, lidar, lidar_rank)
     reasons = [f"lidar: {chosen.name}, {why or lidar_reason(chosen, clouds)}"]
@@ -60,6 +62,10 @@ def choose(recording: Recording, lidar: str = "", imu: str = "") -> Choice:
     reasons.append(f"IMU: {sensor.name}, {why or imu_reason(sensor, imus, found)}")
     reasons.append(extrinsic_reason(sensor, chosen, found))
     return Choice(chosen, sensor, found[0] if found else None, tuple(reasons))
+
+
+def kind_of(topic: Topic) -> str:
+    return topic.type if topic.is_ros else f"{topic.type or 'messages'} ({topic.encoding})"
 
 
 def pick(recording, kind, topics, wanted, rank) -> tuple[Topic, str]:

@@ -4,8 +4,9 @@
 
 from __future__ import annotations
 
-from .bags import BagError, Recording, Topic
+from .bags import BagError, Recording
 from .choice import choose
+from .topics import Topic
 
 UNITS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
 G_LIMIT = 3.0  # between 1 g and 9.8 m/s^2 on a logarithmic scale
@@ -22,6 +23,8 @@ def described(recording: Recording) -> str:
     ]
     lines += [f"{topic.name}: {details(topic)}" for topic in topics if topic.is_cloud or topic.is_imu]
     frames = recording.transforms().frames
+    lines += [f"{topic.name}: left out, {topic.encoding} is no encoding of ROS" for topic in topics if not topic.is_ros]
+    lines += recording.problems
     lines.append(f"/tf_static: {', '.join(frames) if frames else 'nothing'}")
     lines.append("")
     try:

@@ -75,7 +75,7 @@ def run_program(arguments: list[str], keeps: tuple[int, ...] = ()) -> int:
         return run_alone([program, *arguments], keeps)
     with recording:
         choice = choose(recording, settings["lidar_topic"], settings["imu_topic"])
-        for reason in choice.reasons:
+        for reason in (*recording.problems, *choice.reasons):
             print(f"nvm: note: {reason}", file=sys.stderr)
         chosen = choice_arguments(choice, settings)
         return feed([program, *before], [*after, *chosen], keeps, recording, choice)
@@ -142,7 +142,7 @@ def feed(before: list[str], after: list[str], keeps, recording: Recording, choic
         problem = write_messages(write_end, recording, choice)
         code = process.wait()
     if problem:
-        print(f"nvm: {recording.path}: {problem}", file=sys.stderr)
+        print(f"nvm: {problem}", file=sys.stderr)
         return exit_code(code) or 1
     return exit_code(code)
 
@@ -164,7 +164,7 @@ def write_messages(descriptor: int, recording: Recording, choice: Choice) -> str
     try:
         with os.fdopen(descriptor, "wb", buffering=BUFFER_SIZE) as pipe:
             pipe.write(json.dumps(head).encode() + b"\n")
-            for message in read_ahead(recording, [t.name for t in topics]):
+            for message in recording.messages([t.name for t in topics]):
                 if (message.topic, message.type) in places:
                     place = places[message.topic, message.type]
                     pipe.write(struct.pack("<IdI", place, message.record_time, len(message.data)))
@@ -175,13 +175,3 @@ def write_messages(descriptor: int, recording: Recording, choice: Choice) -> str
     except BagError as error:
         return str(error)
     return ""
-
-
-def read_ahead(recording: Recording, topics: list[str]):
-    """The messages; whatever rosbags finds wrong while reading becomes a BagError."""
-    try:
-        yield from recording.messages(topics)
-    except (BrokenPipeError, GeneratorExit):
-        raise
-    except Exception as error:
-        raise BagError(f"is damaged: {error}") from error

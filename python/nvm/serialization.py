@@ -9,8 +9,10 @@ import functools
 from .imu import IMU, imu_cdr_to_ros1
 from .livox import is_livox, livox_cdr_to_ros1, register_livox
 
+TRANSFORMS = "tf2_msgs/msg/TFMessage"
 
-def ros1_of(raw: bytes | memoryview, kind: str, typestore=None) -> bytes | memoryview:
+
+def ros1_of(raw: bytes | memoryview, kind: str) -> bytes | memoryview:
     """A message of ROS 2 (CDR) as ROS 1 serialises it.
 
     Parameters
@@ -19,8 +21,6 @@ def ros1_of(raw: bytes | memoryview, kind: str, typestore=None) -> bytes | memor
         As a raw subscription or a bag gives it.
     kind : str
         ``sensor_msgs/msg/PointCloud2``.
-    typestore : optional
-        Of rosbags, for types that ROS 2 itself does not have.
 
     Raises
     ------
@@ -30,16 +30,26 @@ def ros1_of(raw: bytes | memoryview, kind: str, typestore=None) -> bytes | memor
     if is_livox(kind):
         return livox_cdr_to_ros1(raw)
     short = imu_cdr_to_ros1(raw) if kind == IMU else None
-    return short or (typestore or shared_typestore()).cdr_to_ros1(raw, kind)
+    return short or ros2_typestore().cdr_to_ros1(raw, kind)
 
 
+@functools.cache
+def ros1_typestore():
+    """The types of ROS 1 and of Livox's drivers, for rosbags."""
+    from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+
+    store = get_typestore(Stores.ROS1_NOETIC)
+    register_livox(store)
+    if TRANSFORMS not in store.types:
+        store.register(get_types_from_msg("geometry_msgs/TransformStamped[] transforms", TRANSFORMS))
+    return store
+
+
+@functools.cache
 def ros2_typestore():
-    """A new store with the types of ROS 2 and of Livox's drivers."""
+    """The types of ROS 2 and of Livox's drivers, for rosbags."""
     from rosbags.typesys import Stores, get_typestore
 
     store = get_typestore(Stores.ROS2_HUMBLE)
     register_livox(store)
     return store
-
-
-shared_typestore = functools.cache(ros2_typestore)  # for readers: whoever adds types makes a new one

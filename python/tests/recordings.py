@@ -111,14 +111,16 @@ class Messages:
         )
 
 
-FORMATS = ("bag", "db3", "mcap", "zstd")
+FORMATS = ("bag", "db3", "mcap", "zstd", "ros1.mcap")
 
 
 def write(path, form, make):
     """Writes the recording that make(Messages) gives as (topic, type, time [s], message); returns
     the path that a user would name."""
-    store = typestore(form == "bag")
+    store = typestore(form in ("bag", "ros1.mcap"))
     messages = list(make(Messages(store)))
+    if form == "ros1.mcap":
+        return write_mcap(path.with_suffix(".mcap"), store, messages)
     if form == "bag":
         path = path.with_suffix(".bag")
         with Writer1(path) as writer:
@@ -130,6 +132,32 @@ def write(path, form, make):
         writer.set_compression(CompressionMode.STORAGE, CompressionFormat.ZSTD)
     with writer:
         fill(writer, store.serialize_cdr, store, messages)
+    return path
+
+
+def write_mcap(path, store, messages, others=(), profile="ros1", **options):
+    """Writes messages of ROS 1 as `mcap convert` does, and (topic, encoding, schema, time [s], bytes) of `others`."""
+    from mcap.writer import Writer
+
+    with path.open("wb") as file:
+        writer = Writer(file, **options)
+        writer.start(profile=profile, library="mcap go v1")
+        channels = {}
+        for topic, kind, time, message in messages:
+            if topic not in channels:
+                text, digest = store.generate_msgdef(kind)
+                schema = writer.register_schema(kind.replace("/msg/", "/"), "ros1msg", text.encode())
+                about = {"md5sum": digest, "topic": topic, "type": kind.replace("/msg/", "/")}
+                channels[topic] = writer.register_channel(topic, "ros1", schema, about)
+            stamp = round(time * 1e9)
+            writer.add_message(channels[topic], stamp, bytes(store.serialize_ros1(message, kind)), stamp)
+        for topic, encoding, (name, schema_encoding, data), time, value in others:
+            if topic not in channels:
+                channels[topic] = writer.register_channel(
+                    topic, encoding, writer.register_schema(name, schema_encoding, data)
+                )
+            writer.add_message(channels[topic], round(time * 1e9), value, round(time * 1e9))
+        writer.finish()
     return path
 
 

@@ -37,7 +37,7 @@ def test_every_format_holds_the_same(rng, tmp_path, form):
     path = write(tmp_path / "walk", form, walk(rng))
     assert is_bag(path)
     with Recording(path) as recording:
-        assert recording.format == ("ROS 1 bag" if form == "bag" else "ROS 2 bag")
+        assert recording.format == {"bag": "ROS 1 bag", "ros1.mcap": "MCAP"}.get(form, "ROS 2 bag")
         topics = {t.name: t for t in recording.topics()}
         assert {n: t.count for n, t in topics.items()} == {"/points": 5, "/imu": 50, "/tf_static": 1}
         assert topics["/points"].points == 50 and topics["/points"].time_field == "t"

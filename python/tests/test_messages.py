@@ -110,7 +110,7 @@ def check(sequence, gravity=9.75):
 def test_clouds(tmp_path, form, make_cloud):
     sequence = read(write(tmp_path / "bag", form, of(make_cloud)))
     check(sequence)
-    assert sequence["format"] == ("ROS 1 bag" if form == "bag" else "ROS 2 bag")
+    assert sequence["format"] == {"bag": "ROS 1 bag", "ros1.mcap": "MCAP"}.get(form, "ROS 2 bag")
 
 
 @pytest.mark.parametrize("form", FORMATS)

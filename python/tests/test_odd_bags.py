@@ -3,13 +3,12 @@
 """Recordings that are cut off, lack parts, hold other messages or none, and have odd names."""
 
 import dataclasses
-import struct
 
 import numpy as np
 import pytest
 
 pytest.importorskip("rosbags")
-from recordings import CLOUD, POINT, records, typestore, write
+from recordings import CLOUD, POINT, Messages, records, typestore, write, write_mcap
 from rosbags.rosbag1 import Writer as Writer1
 from rosbags.rosbag2 import StoragePlugin
 from rosbags.rosbag2 import Writer as Writer2
@@ -19,19 +18,37 @@ from nvm.bags import BagError, Recording
 from nvm.cli import main
 
 
-def walk(rng):
-    """A maker of five clouds."""
-    return lambda m: (("/points", CLOUD, 100 + i, m.cloud(100 + i, records(rng, 500))) for i in range(5))
+def walk(rng, count=5):
+    """A maker of clouds."""
+    return lambda m: (("/points", CLOUD, 100 + i, m.cloud(100 + i, records(rng, 500))) for i in range(count))
 
 
 def test_a_ros2_bag_that_was_cut_off_is_refused_with_what_mends_it(rng, tmp_path):
-    for form, mends in (("mcap", "mcap recover"), ("db3", "sqlite3 FILE .recover")):
-        file = next(write(tmp_path / form, form, walk(rng)).glob(f"*.{form}"))
-        file.write_bytes(file.read_bytes()[: file.stat().st_size // 2])
-        for path in (file, file.parent):
-            with pytest.raises(BagError, match=mends) as caught:
-                Recording(path)
-            assert "\n" not in str(caught.value)
+    file = next(write(tmp_path / "walk", "db3", walk(rng)).glob("*.db3"))
+    file.write_bytes(file.read_bytes()[: file.stat().st_size // 2])
+    for path in (file, file.parent):
+        with pytest.raises(BagError, match="sqlite3 FILE .recover") as caught:
+            Recording(path)
+        assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("form", ["mcap", "ros1.mcap"])
+@pytest.mark.parametrize("share", [0.5, 0.99])
+def test_mcap_that_was_cut_off_is_read_as_far_as_it_goes(rng, tmp_path, form, share, capsys):
+    path = write(tmp_path / "walk", form, walk(rng, 400))
+    file = path if path.is_file() else next(path.glob("*.mcap"))
+    with Recording(path) as recording:
+        whole = [message.data for message in recording.messages(["/points"])]
+        assert recording.problems == []
+    file.write_bytes(file.read_bytes()[: int(share * file.stat().st_size)])
+    with Recording(path) as recording:
+        (topic,) = recording.topics()
+        messages = [message.data for message in recording.messages(["/points"])]
+        assert topic.count == len(messages) > (share - 0.35) * len(whole)
+        assert messages == whole[: len(messages)]
+        assert recording.problems == [f"{file}: was cut off, and is read as far as it goes"]
+    assert main(["info", str(path)]) == 0
+    assert "was cut off" in capsys.readouterr().out
 
 
 def test_a_split_bag_that_lacks_a_part_is_refused(rng, tmp_path):
@@ -43,20 +60,56 @@ def test_a_split_bag_that_lacks_a_part_is_refused(rng, tmp_path):
         Recording(folder)
 
 
-@pytest.mark.parametrize("profile, encoding", [("", "json"), ("ros1", "ros1"), ("ros2", "json")])
-def test_mcap_without_messages_of_ros2_is_refused(tmp_path, profile, encoding):
-    text = lambda value: struct.pack("<I", len(value)) + value.encode()
-    record = lambda kind, body: struct.pack("<BQ", kind, len(body)) + body
-    magic = b"\x89MCAP0\r\n"
-    schema = struct.pack("<H", 1) + text("Point") + text(f"{encoding}schema") + text("{}")
-    channel = struct.pack("<HH", 1, 1) + text("/point") + text(encoding) + text("")
-    message = struct.pack("<HIQQ", 1, 0, 1, 1) + b"{}"
-    records = [(1, text(profile) + text("me")), (3, schema), (4, channel), (5, message)]
-    records += [(15, bytes(4)), (2, bytes(20))]
-    file = tmp_path / "other.mcap"
-    file.write_bytes(magic + b"".join(record(*r) for r in records) + magic)
-    with pytest.raises(BagError, match="of ROS 2"):
-        Recording(file)
+OTHERS = [  # messages of other kinds; a protobuf schema is no text
+    ("/poses", "json", ("foxglove.PoseInFrame", "jsonschema", b"{}"), 100.2, b"{}"),
+    ("/scan", "protobuf", ("foxglove.PointCloud", "protobuf", b"\x0a\xff\xfe\x80"), 100.3, b"\x0a\x00"),
+    ("/cloud", "json", ("sensor_msgs/PointCloud2", "jsonschema", b"{}"), 100.4, b"{}"),
+]
+
+
+@pytest.mark.parametrize("profile", ["", "ros1", "ros2"])
+@pytest.mark.parametrize("options", [{}, {"use_chunking": False}, {"repeat_schemas": False}, {"use_statistics": False}])
+def test_channels_of_other_kinds_in_mcap_are_left_out_and_named(rng, tmp_path, profile, options, capsys):
+    store = typestore(ros1=True)
+    clouds = list(walk(rng)(Messages(store)))
+    path = write_mcap(tmp_path / "mixed.mcap", store, clouds, OTHERS, profile, **options)
+    with Recording(path) as recording:
+        assert {t.name: t.count for t in recording.topics()} == {"/points": 5, "/poses": 1, "/scan": 1, "/cloud": 1}
+        data = [message.data for message in recording.messages(["/points", "/poses", "/cloud"])]
+        assert data == [bytes(store.serialize_ros1(cloud, CLOUD)) for *_, cloud in clouds]
+        assert recording.begin == 100 and recording.duration == 4
+    assert main(["info", str(path)]) == 0
+    out = capsys.readouterr().out
+    for line in ("/poses: left out, json is no encoding of ROS", "/scan: left out, protobuf", "/cloud: left out, json"):
+        assert line in out
+    assert "lidar: /points, the only one" in out
+
+
+def test_mcap_without_messages_of_ros_says_what_it_holds(tmp_path, capsys):
+    path = write_mcap(tmp_path / "other.mcap", None, [], OTHERS, "")
+    assert main(["info", str(path)]) == 0
+    assert main(["run", str(path), "--out", str(tmp_path / "out")]) == 1
+    error = capsys.readouterr().err
+    assert "has no clouds" in error and "foxglove.PointCloud (protobuf)" in error and error.count("\n") == 1
+
+
+def test_mcap_of_ros1_in_parts_is_one_recording(rng, tmp_path):
+    store = typestore(ros1=True)
+    clouds = list(walk(rng, 6)(Messages(store)))
+    (tmp_path / "parts").mkdir()
+    for i in range(2):
+        write_mcap(tmp_path / f"parts/{i}.mcap", store, clouds[i::2])
+    with Recording(tmp_path / "parts") as recording:
+        assert [message.record_time for message in recording.messages(["/points"])] == [100, 101, 102, 103, 104, 105]
+
+
+def test_a_damaged_chunk_of_mcap_is_said(rng, tmp_path):
+    path = write(tmp_path / "walk", "ros1.mcap", walk(rng))
+    data = bytearray(path.read_bytes())
+    data[len(data) // 3] ^= 255
+    path.write_bytes(data)
+    done = nvm("run", path, "--out", tmp_path / "out")
+    assert done.returncode == 1 and f"{path}: is " in done.stderr and "Traceback" not in done.stderr
 
 
 @pytest.mark.parametrize("form", ["bag", "mcap"])
@@ -95,3 +148,18 @@ def test_topics_without_messages_are_said(tmp_path, form, capsys):
     assert "/points: no messages" in capsys.readouterr().out
     assert main(["run", str(path), "--out", str(tmp_path / "out")]) == 1
     assert "/points has no messages" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("form", ["bag", "mcap"])
+def test_damaged_messages_are_left_out_and_counted(rng, tmp_path, form):
+    store = typestore(form == "bag")
+    path = tmp_path / ("walk.bag" if form == "bag" else "walk")
+    writer = Writer1(path) if form == "bag" else Writer2(path, version=9, storage_plugin=StoragePlugin.MCAP)
+    with writer:
+        topic = writer.add_connection("/points", CLOUD, typestore=store)
+        for i, (_, kind, time, cloud) in enumerate(walk(rng, 8)(Messages(store))):
+            raw = bytes((store.serialize_ros1 if form == "bag" else store.serialize_cdr)(cloud, kind))
+            writer.write(topic, round(time * 1e9), raw[:30] if i in (0, 5) else raw)
+    assert "/points: 500 points" in nvm("info", path).stdout
+    done = nvm("run", path, "--out", tmp_path / "out")
+    assert "6 of 6 scans" in done.stderr and "2" in done.stderr and "Traceback" not in done.stderr, done.stderr

@@ -121,7 +121,7 @@ def test_a_bag_that_breaks_off_is_an_error_in_one_line(tmp_path):
     folder = write(tmp_path / "still", "mcap", seeded())
     file = next(folder.glob("*.mcap"))
     data = file.read_bytes()
-    file.write_bytes(data[: len(data) // 2] + bytes(200) + data[len(data) // 2 + 200 :])
+    file.write_bytes(data[: len(data) // 2] + bytes(20_000) + data[len(data) // 2 + 20_000 :])
     done = nvm("run", folder, "--out", tmp_path / "out")
     assert done.returncode != 0
     assert "Traceback" not in done.stderr and str(folder) in done.stderr
