@@ -11,14 +11,16 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses
+import heapq
 import itertools
 import pathlib
 import re
 from collections.abc import Iterator
 
 from .livox import is_livox
-from .mcap_reader import McapReader
-from .serialization import TRANSFORMS, ros1_of, ros1_typestore, ros2_typestore
+from .mcap_file import McapFile
+from .message_definitions import TRANSFORMS
+from .serialization import ros1_of, ros1_typestore, ros2_typestore
 from .topics import ROS, Topic, described
 from .transforms import TransformTree
 
@@ -97,7 +99,9 @@ class Recording:
         is_part = self.path.suffix != ".bag" and self.path.is_file() and bags_of(folder) == [folder]
         bags = [folder] if is_part else bags_of(self.path) or [self.path]
         try:
-            self._reader = open_reader(bags)
+            with contextlib.ExitStack() as opened:
+                self._readers = open_all(bags, opened)
+                self._opened = opened.pop_all()
         except ImportError as error:
             raise BagError(f"{path}: bags are read by rosbags and mcap: pip install rosbags mcap") from error
         except Exception as error:  # rosbags lets what yaml, sqlite and mcap find wrong pass
@@ -108,34 +112,43 @@ class Recording:
         return self
 
     def __exit__(self, *_) -> None:
-        self._reader.close()
+        self._opened.close()
 
     @property
     def format(self) -> str:
-        if isinstance(self._reader, McapReader):
+        if self._mcap_files:
             return "MCAP"
-        return "ROS 2 bag" if self._reader.is2 else "ROS 1 bag"
+        return "ROS 1 bag" if all(encoding_of(c) == "ros1" for c in self._connections) else "ROS 2 bag"
 
     @property
     def problems(self) -> list[str]:
         """What is wrong with it, but does not keep it from being read; a line each."""
-        files = self._reader.files if isinstance(self._reader, McapReader) else []
-        return [f"{file.path}: was cut off, and is read as far as it goes" for file in files if file.is_cut_off]
+        cut_off = (file for file in self._mcap_files if file.is_cut_off)
+        return [f"{file.path}: was cut off, and is read as far as it goes" for file in cut_off]
 
     @property
     def begin(self) -> float:
         """Time of recording of the first message [s]."""
-        return self._reader.start_time * 1e-9
+        return min(reader.start_time for reader in self._readers) * 1e-9
 
     @property
     def duration(self) -> float:
         """[s]"""
-        return self._reader.duration * 1e-9 if self._reader.message_count else 0.0
+        used = [reader for reader in self._readers if reader.message_count]
+        return max(reader.end_time for reader in used) * 1e-9 - self.begin if used else 0.0
+
+    @property
+    def _mcap_files(self) -> list[McapFile]:
+        return [reader for reader in self._readers if isinstance(reader, McapFile)]
+
+    @property
+    def _connections(self) -> list:
+        return [connection for reader in self._readers for connection in reader.connections]
 
     def topics(self) -> list[Topic]:
         """All topics, in the order of their names."""
         found: dict[tuple[str, str, str], int] = {}
-        for connection in self._reader.connections:
+        for connection in self._connections:
             key = (connection.topic, connection.msgtype, encoding_of(connection))
             found[key] = found.get(key, 0) + connection.msgcount
         return [self._topic(*key, count) for key, count in sorted(found.items())]
@@ -161,9 +174,13 @@ class Recording:
             )
 
     def _messages(self, accepts):
-        connections = [c for c in self._reader.connections if encoding_of(c) in ROS and accepts(c)]
+        parts = []
+        for reader in self._readers:
+            connections = [c for c in reader.connections if encoding_of(c) in ROS and accepts(c)]
+            if connections:  # without any, rosbags reads all
+                parts.append(reader.messages(connections=connections))
         try:
-            yield from self._reader.messages(connections=connections) if connections else ()
+            yield from heapq.merge(*parts, key=lambda found: found[1])
         except Exception as error:  # each library has its own
             raise BagError(f"{self.path}: is damaged: {error}") from error
 
@@ -183,20 +200,21 @@ class Recording:
         return dataclasses.replace(topic, **described(samples, is_livox(kind))) if samples else topic
 
 
-def open_reader(bags: list[pathlib.Path]):
-    """Opens files, or the folder of one recording, with the package that reads them."""
-    from rosbags.highlevel import AnyReader, AnyReaderError
-
-    reader = AnyReader(bags, default_typestore=ros2_typestore())
+def open_all(bags: list[pathlib.Path], opened: contextlib.ExitStack) -> list:
+    """Readers of files, or of the folder of one recording, each with the package that reads it."""
+    if all(bag.suffix == ".bag" for bag in bags):
+        from rosbags.rosbag1 import Reader
+    else:
+        from rosbags.rosbag2 import Reader
     try:
-        reader.open()
-    except (AnyReaderError, KeyError, UnicodeDecodeError) as error:  # the latter two: of a schema, in MCAP
-        is_known = not isinstance(error, AnyReaderError) or any(text in str(error) for text in FOR_MCAP)
+        return [opened.enter_context(Reader(bag)) for bag in bags]
+    except Exception as error:
+        # KeyError and UnicodeDecodeError are of a schema, in MCAP.
+        is_known = isinstance(error, (KeyError, UnicodeDecodeError)) or any(text in str(error) for text in FOR_MCAP)
         files = [file for bag in bags for file in parts_of(bag)]
         if not is_known or any(file.suffix != ".mcap" for file in files):
             raise
-        return McapReader(files)
-    return reader
+        return [McapFile(file) for file in files]
 
 
 def parts_of(bag: pathlib.Path) -> list[pathlib.Path]:

@@ -109,7 +109,9 @@ def exit_code(code: int) -> int:
 
 
 def input_settings(program: str, arguments: list[str]) -> dict:
-    """What a command line says of the input, by the program's own word."""
+    """What a command line says of the input, by the program's own word where it says anything."""
+    if not any(argument.startswith(("--config", "--set")) for argument in arguments):
+        return {"lidar_topic": "", "imu_topic": "", "T_imu_lidar": ""}
     from ruamel.yaml import YAML
 
     asked = subprocess.run(

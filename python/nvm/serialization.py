@@ -8,8 +8,7 @@ import functools
 
 from .imu import IMU, imu_cdr_to_ros1
 from .livox import is_livox, livox_cdr_to_ros1, register_livox
-
-TRANSFORMS = "tf2_msgs/msg/TFMessage"
+from .message_definitions import DEFINITIONS, HEADER, ROS1_HEADER
 
 
 def ros1_of(raw: bytes | memoryview, kind: str) -> bytes | memoryview:
@@ -33,23 +32,18 @@ def ros1_of(raw: bytes | memoryview, kind: str) -> bytes | memoryview:
     return short or ros2_typestore().cdr_to_ros1(raw, kind)
 
 
-@functools.cache
-def ros1_typestore():
-    """The types of ROS 1 and of Livox's drivers, for rosbags."""
+def typestore(header: str):
+    """The types that are read, for rosbags."""
     from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
-    store = get_typestore(Stores.ROS1_NOETIC)
-    register_livox(store)
-    if TRANSFORMS not in store.types:
-        store.register(get_types_from_msg("geometry_msgs/TransformStamped[] transforms", TRANSFORMS))
-    return store
-
-
-@functools.cache
-def ros2_typestore():
-    """The types of ROS 2 and of Livox's drivers, for rosbags."""
-    from rosbags.typesys import Stores, get_typestore
-
-    store = get_typestore(Stores.ROS2_HUMBLE)
+    types = get_types_from_msg(header, "std_msgs/msg/Header")
+    for name, text in DEFINITIONS.items():
+        types.update(get_types_from_msg(text, name))
+    store = get_typestore(Stores.EMPTY)
+    store.register(types)
     register_livox(store)
     return store
+
+
+ros1_typestore = functools.cache(functools.partial(typestore, ROS1_HEADER))
+ros2_typestore = functools.cache(functools.partial(typestore, HEADER))

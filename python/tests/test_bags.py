@@ -1,17 +1,22 @@
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 The nvm authors
 import struct
+import subprocess
+import sys
 
 import numpy as np
 import pytest
 
 pytest.importorskip("rosbags")
-from recordings import CLOUD, FORMATS, IMU, LIVOX, TF, livox_records, records, typestore, write
+from recordings import CLOUD, FORMATS, IMU, LIVOX, TF, Messages, livox_records, records, typestore, write
+from rosbags.rosbag1 import Writer as Writer1
 
 from nvm.bags import BagError, Recording, is_bag
 from nvm.choice import choose
 from nvm.imu import imu_cdr_to_ros1
 from nvm.livox import livox_cdr_to_ros1
+from nvm.message_definitions import DEFINITIONS
+from nvm.serialization import ros1_typestore, ros2_typestore
 from nvm.transforms import quaternion, rotation
 
 HALF = np.sqrt(0.5)
@@ -142,8 +147,6 @@ def test_livox_messages_are_those_of_ros1(rng, tmp_path, form):
 
 @pytest.mark.parametrize("frame", ["", "a", "livox", "a frame of any length"])
 def test_livox_is_translated_as_rosbags_does(rng, frame):
-    from recordings import Messages
-
     store = typestore(ros1=False)
     for count in (0, 1, 7):
         message = Messages(store).livox(3.25, livox_records(rng, count), frame)
@@ -158,8 +161,6 @@ def test_livox_is_translated_as_rosbags_does(rng, frame):
 
 @pytest.mark.parametrize("frame", ["", "a", "imu_link", "a frame of any length"])
 def test_an_imu_is_translated_as_rosbags_does(rng, frame):
-    from recordings import Messages
-
     store = typestore(ros1=False)
     message = Messages(store).imu(3.25, rng.normal(size=3), rng.normal(size=3), frame)
     message.orientation_covariance = rng.normal(size=9)
@@ -227,3 +228,36 @@ def test_a_recording_without_clouds_says_what_it_holds(rng, tmp_path, capsys):
     out = capsys.readouterr().out
     assert "accelerations of 0.99: g" in out
     assert "has no clouds" in out and "it holds: sensor_msgs/msg/Imu" in out
+
+
+@pytest.mark.parametrize("form, is_alone", [("bag", "rosbags.rosbag2"), ("db3", "rosbags.rosbag1")])
+def test_no_more_is_imported_than_a_recording_takes(rng, tmp_path, form, is_alone):
+    path = write(tmp_path / "walk", form, walk(rng))
+    code = f"""import sys
+from nvm.program import choose, input_settings, Recording
+settings = input_settings("no such program", ["run", "--out", "x"])
+print(choose(Recording({str(path)!r}), settings["lidar_topic"]).lidar.name)
+print([name for name in ({is_alone!r}, "mcap", "fsspec", "matplotlib", "rosbags.typesys.stores.ros2_foxy") if name in sys.modules])
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert done.stdout == "/points\n[]\n", done.stderr
+
+
+def test_definitions_of_other_topics_may_be_unreadable(rng, tmp_path):
+    path = tmp_path / "odd.bag"
+    store = typestore(ros1=True)
+    with Writer1(path) as writer:
+        other = writer.add_connection("/other", "my_msgs/msg/Other", msgdef="int32[<=] 3 ]", md5sum="0" * 32)
+        writer.write(other, 99 * 10**9, b"??")
+        topic = writer.add_connection("/points", CLOUD, typestore=store)
+        writer.write(topic, 100 * 10**9, store.serialize_ros1(Messages(store).cloud(100.0, records(rng)), CLOUD))
+    with Recording(path) as recording:
+        assert choose(recording).lidar.points == 50
+        assert [message.topic for message in recording.messages(["/points"])] == ["/points"]
+
+
+def test_own_definitions_are_those_of_ros(rng):
+    for ros1, own in ((True, ros1_typestore()), (False, ros2_typestore())):
+        theirs = typestore(ros1)
+        for kind in ("std_msgs/msg/Header", *DEFINITIONS):
+            assert own.fielddefs[kind][1] == theirs.fielddefs[kind][1]

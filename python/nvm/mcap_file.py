@@ -8,7 +8,6 @@ Read by the package mcap, as far as a file goes.
 from __future__ import annotations
 
 import dataclasses
-import heapq
 import pathlib
 from collections.abc import Iterator
 
@@ -21,26 +20,29 @@ class Channel:
     msgtype: str  # as ROS 2 writes it: sensor_msgs/msg/Imu
     msgcount: int
     encoding: str  # of its messages: ros1, cdr, json, protobuf, ...
-    file: McapFile = dataclasses.field(repr=False)
     id: int
 
 
 class McapFile:
-    """One file. Raises McapError when it is none, or damaged."""
+    """One file, with what rosbags' readers have of others. Raises McapError when it is none, or damaged."""
 
     def __init__(self, path: pathlib.Path):
         self.path = path
         self.is_cut_off = False
-        self.channels: list[Channel] = []
+        self.connections: list[Channel] = []
         self.start_time, self.end_time = 2**63 - 1, 0  # [ns]
         self._is_indexed = self._read_summary()
         if not self._is_indexed:
             self._read_all()
 
-    def messages(self, channels: list[Channel]) -> Iterator[tuple[Channel, int, bytes]]:
+    @property
+    def message_count(self) -> int:
+        return sum(channel.msgcount for channel in self.connections)
+
+    def messages(self, connections: list[Channel]) -> Iterator[tuple[Channel, int, bytes]]:
         """Channel, time of recording [ns] and bytes; in that order as far as the file has an index."""
-        wanted = {channel.id: channel for channel in channels}
-        for _, channel, message in self._records({channel.topic for channel in channels}):
+        wanted = {channel.id: channel for channel in connections}
+        for _, channel, message in self._records({channel.topic for channel in connections}):
             if channel.id in wanted:
                 yield wanted[channel.id], message.log_time, message.data
 
@@ -94,22 +96,4 @@ class McapFile:
     def _add(self, channel, schema, count: int) -> None:
         kind = schema.name if schema else ""
         kind = kind.replace("/", "/msg/") if kind.count("/") == 1 else kind
-        self.channels.append(Channel(channel.topic, kind, count, channel.message_encoding, self, channel.id))
-
-
-class McapReader:
-    """MCAP files as one recording, with what this package needs of rosbags' AnyReader."""
-
-    def __init__(self, paths: list[pathlib.Path]):
-        self.files = [McapFile(path) for path in paths]
-        self.connections = [channel for file in self.files for channel in file.channels]
-        self.message_count = sum(channel.msgcount for channel in self.connections)
-        self.start_time = min(file.start_time for file in self.files)
-        self.duration = max(file.end_time for file in self.files) - self.start_time
-
-    def messages(self, connections: list[Channel]) -> Iterator[tuple[Channel, int, bytes]]:
-        parts = ([c for c in connections if c.file is file] for file in self.files)
-        yield from heapq.merge(*(part[0].file.messages(part) for part in parts if part), key=lambda found: found[1])
-
-    def close(self) -> None:
-        """Files are open while their messages are read, and no longer."""
+        self.connections.append(Channel(channel.topic, kind, count, channel.message_encoding, channel.id))
