@@ -30,6 +30,7 @@ HINTS = {  # of what rosbags says
     "disk image is malformed": "it was cut off or damaged, of which `sqlite3 FILE .recover` saves what there is",
 }
 FOR_MCAP = ("Profile is not ros2", "File end magic is invalid", "Invalid MCAP footer")  # so rosbags refuses
+ZSTD = b"\x28\xb5\x2f\xfd"  # begins what it has compressed, and no message of ROS 2
 SAMPLES = 10  # messages of a topic that are looked at
 
 
@@ -98,6 +99,7 @@ class Recording:
         folder = self.path.parent
         is_part = self.path.suffix != ".bag" and self.path.is_file() and bags_of(folder) == [folder]
         bags = [folder] if is_part else bags_of(self.path) or [self.path]
+        refuse_unfinished(bags)
         try:
             with contextlib.ExitStack() as opened:
                 self._readers = open_all(bags, opened)
@@ -180,7 +182,8 @@ class Recording:
             if connections:  # without any, rosbags reads all
                 parts.append(reader.messages(connections=connections))
         try:
-            yield from heapq.merge(*parts, key=lambda found: found[1])
+            for connection, time, raw in heapq.merge(*parts, key=lambda found: found[1]):
+                yield connection, time, unpacked(raw) if raw[:4] == ZSTD and encoding_of(connection) == "cdr" else raw
         except Exception as error:  # each library has its own
             raise BagError(f"{self.path}: is damaged: {error}") from error
 
@@ -198,6 +201,17 @@ class Recording:
         found = self._deserialized(lambda c: (c.topic, c.msgtype, encoding_of(c)) == (name, kind, encoding))
         samples = list(itertools.islice(found, SAMPLES))
         return dataclasses.replace(topic, **described(samples, is_livox(kind))) if samples else topic
+
+
+def refuse_unfinished(bags: list[pathlib.Path]) -> None:
+    """BagError when SQLite has messages beside a bag, which rosbags would not see."""
+    for file in (file for bag in bags for file in (sorted(bag.glob("*.db3")) if bag.is_dir() else [bag])):
+        for beside in (file.with_name(file.name + end) for end in ("-wal", "-journal")):
+            if beside.exists() and beside.stat().st_size:
+                raise BagError(
+                    f"{beside}: has what was not put into {file.name} before its recorder ended: "
+                    f"`sqlite3 {file} 'SELECT count(*) FROM messages'` puts it there"
+                )
 
 
 def open_all(bags: list[pathlib.Path], opened: contextlib.ExitStack) -> list:
@@ -229,6 +243,13 @@ def encoding_of(connection) -> str:
     if hasattr(connection, "encoding"):
         return connection.encoding
     return getattr(connection.ext, "serialization_format", "ros1")
+
+
+def unpacked(raw) -> bytes:
+    """A message of a bag whose metadata, which say that messages are compressed, are lost."""
+    from zstandard import ZstdDecompressor
+
+    return ZstdDecompressor().decompressobj().decompress(raw)
 
 
 def as_ros1(raw, connection) -> bytes | memoryview:

@@ -100,7 +100,7 @@ def common_namespace(a: str, b: str) -> list[str]:
 
 
 def others(topics: list[Topic], chosen: Topic) -> str:
-    names = ", ".join(t.name for t in topics if t is not chosen)
+    names = ", ".join(t.name for t in topics if t.name != chosen.name)
     return f"; others: {names}" if names else ""
 
 

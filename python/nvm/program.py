@@ -22,6 +22,7 @@ import threading
 from . import _nvm
 from .bags import BagError, Recording, is_bag, is_ros1
 from .choice import Choice, choose
+from .topics import Topic
 
 END = 0xFFFFFFFF  # in the place of a topic
 PIPE_SIZE = 1 << 20  # [bytes]
@@ -149,10 +150,15 @@ def feed(before: list[str], after: list[str], keeps, recording: Recording, choic
     return exit_code(code)
 
 
+def is_same(topic: Topic, chosen: Topic) -> bool:
+    return (topic.name, topic.is_cloud, topic.is_imu) == (chosen.name, chosen.is_cloud, chosen.is_imu)
+
+
 def write_messages(descriptor: int, recording: Recording, choice: Choice) -> str:
     """Writes the messages of the chosen topics to a pipe; returns what was wrong with the recording,
     nothing when the reader ended first."""
-    topics = [topic for topic in (choice.lidar, choice.imu) if topic]
+    # A topic may change its type midway.
+    topics = [t for t in recording.topics() if is_same(t, choice.lidar) or (choice.imu and is_same(t, choice.imu))]
     head = {
         "format": "nvm messages",
         "version": 1,
@@ -166,7 +172,7 @@ def write_messages(descriptor: int, recording: Recording, choice: Choice) -> str
     try:
         with os.fdopen(descriptor, "wb", buffering=BUFFER_SIZE) as pipe:
             pipe.write(json.dumps(head).encode() + b"\n")
-            for message in recording.messages([t.name for t in topics]):
+            for message in recording.messages(sorted({t.name for t in topics})):
                 if (message.topic, message.type) in places:
                     place = places[message.topic, message.type]
                     pipe.write(struct.pack("<IdI", place, message.record_time, len(message.data)))

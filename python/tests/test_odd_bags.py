@@ -3,14 +3,16 @@
 """Recordings that are cut off, lack parts, hold other messages or none, and have odd names."""
 
 import dataclasses
+import shutil
+import sqlite3
 
 import numpy as np
 import pytest
 
 pytest.importorskip("rosbags")
-from recordings import CLOUD, POINT, Messages, records, typestore, write, write_mcap
+from recordings import CLOUD, LIVOX, POINT, Messages, fill, livox_records, records, typestore, write, write_mcap
 from rosbags.rosbag1 import Writer as Writer1
-from rosbags.rosbag2 import StoragePlugin
+from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin
 from rosbags.rosbag2 import Writer as Writer2
 from support import nvm
 
@@ -163,3 +165,52 @@ def test_damaged_messages_are_left_out_and_counted(rng, tmp_path, form):
     assert "/points: 500 points" in nvm("info", path).stdout
     done = nvm("run", path, "--out", tmp_path / "out")
     assert "6 of 6 scans" in done.stderr and "2" in done.stderr and "Traceback" not in done.stderr, done.stderr
+
+
+def test_messages_that_sqlite_has_beside_a_bag_are_not_lost(rng, tmp_path):
+    folder = write(tmp_path / "walk", "db3", walk(rng))
+    file = next(folder.glob("*.db3"))
+    database = sqlite3.connect(file)
+    database.execute("PRAGMA journal_mode=WAL")
+    database.execute("INSERT INTO messages(topic_id, timestamp, data) SELECT topic_id, timestamp + 10, data FROM messages")
+    database.commit()
+    left = shutil.copytree(folder, tmp_path / "left")  # as a recorder that was killed leaves it
+    database.close()
+    for path in (left, left / file.name):
+        with pytest.raises(BagError, match=f"{file.name}-wal: .*SELECT count"):
+            Recording(path)
+    remedy = sqlite3.connect(left / file.name)
+    assert remedy.execute("SELECT count(*) FROM messages").fetchone() == (10,)
+    remedy.close()
+    with Recording(left / file.name) as recording:
+        assert len(list(recording.messages(["/points"]))) == 10
+
+
+@pytest.mark.parametrize("plugin", [StoragePlugin.MCAP, StoragePlugin.SQLITE3])
+def test_compressed_messages_are_read_without_the_metadata(rng, tmp_path, plugin):
+    store = typestore(ros1=False)
+    writer = Writer2(tmp_path / "walk", version=9, storage_plugin=plugin)
+    writer.set_compression(CompressionMode.MESSAGE, CompressionFormat.ZSTD)
+    with writer:
+        fill(writer, store.serialize_cdr, store, list(walk(rng)(Messages(store))))
+    found = []
+    for is_whole in (True, False):
+        with Recording(tmp_path / "walk") as recording:
+            assert recording.topics()[0].points == 500
+            found.append([bytes(message.data) for message in recording.messages(["/points"])])
+        if is_whole:
+            (tmp_path / "walk" / "metadata.yaml").unlink()
+    assert found[0] == found[1] and len(found[0]) == 5
+
+
+def test_a_topic_may_change_its_type(rng, tmp_path):
+    store = typestore(ros1=True)
+    clouds = [(CLOUD, Messages(store).cloud(100.0 + i, records(rng, 500))) for i in range(3)]
+    clouds += [(LIVOX, Messages(store).livox(103.0 + i, livox_records(rng, 500), "lidar")) for i in range(2)]
+    path = tmp_path / "walk.bag"
+    with Writer1(path) as writer:
+        topics = {kind: writer.add_connection("/points", kind, typestore=store) for kind in (CLOUD, LIVOX)}
+        for i, (kind, cloud) in enumerate(clouds):
+            writer.write(topics[kind], (101 + i) * 10**9, store.serialize_ros1(cloud, kind))
+    done = nvm("run", path, "--out", tmp_path / "out")
+    assert "5 of 5 scans" in done.stderr and "others:" not in done.stderr, done.stderr
