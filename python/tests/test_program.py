@@ -211,3 +211,22 @@ def test_a_simulator_on_the_path_is_found_behind_scripts_of_its_name(tmp_path, m
     monkeypatch.setenv("PATH", str(script.parent))
     done = nvm("simulate", "wall5", "--out", tmp_path / "out")
     assert done.returncode != 0 and "nvm-tools" in done.stderr and done.stderr.count("\n") == 1
+
+
+def test_messages_name_the_recording_instead_of_its_pipe(tmp_path):
+    def nothing_near(m):
+        for i in range(3):
+            cloud = room_records(np.random.default_rng(i), POINTS)
+            cloud["x"] = np.nan
+            yield "/points", CLOUD, BEGIN + i, m.cloud(BEGIN + i, cloud)
+
+    for form in ("bag", "mcap"):
+        path = write(tmp_path / form, form, nothing_near)
+        done = nvm("run", path, "--out", tmp_path / "out")
+        assert done.returncode != 0 and f"nvm: {path}: " in done.stderr and "/dev/fd" not in done.stderr, done.stderr
+        poses = tmp_path / "poses.tum"
+        poses.write_text("1000 0 0 0 0 0 0 1\n1005 0 0 0 0 0 0 1\n")
+        done = nvm("map", path, "--poses", poses, "--out", tmp_path / "out")
+        assert done.returncode != 0 and f"nvm: {path}: " in done.stderr and "/dev/fd" not in done.stderr, done.stderr
+    done = nvm("run", path, "--out", path)
+    assert done.returncode != 0 and "is where the scans are" in done.stderr and "map.nvm" not in os.listdir(path)

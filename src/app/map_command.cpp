@@ -84,17 +84,18 @@ std::string describe(const Trajectory& poses, const ScanTimes& scans) {
 
 /// Why a map has no points, in one line.
 std::string why_empty(
+    const std::string& input,
     const MapArguments& arguments,
     const MapBuilder& builder,
     const Trajectory& poses,
     const ScanTimes& scans) {
   if (scans.count == 0) {
-    return arguments.input + ": has no scans";
+    return input + ": has no scans";
   }
   if (builder.placed().empty()) {
     return arguments.poses + ": has no pose at the time of any scan: " + describe(poses, scans);
   }
-  return arguments.input + ": the map has no points: " + builder.inserted().why_empty();
+  return input + ": the map has no points: " + builder.inserted().why_empty();
 }
 
 /// Throws Failure when nothing is worth keeping, for the reason `why`.
@@ -140,7 +141,10 @@ void build_map(
   });
   print_notes(reader.info());
   const std::size_t map_points = builder.map().points().size();
-  check_useful(map_points, ending, why_empty(arguments, builder, poses, scans));
+  check_useful(
+      map_points,
+      ending,
+      why_empty(name_of(arguments.input, reader.info()), arguments, builder, poses, scans));
   io::write_tum(results.path() + "/trajectory.tum", io::moved(builder.placed(), origin));
   write_map(results, builder.map(), origin, ending);
   results.publish();
@@ -159,8 +163,8 @@ void build_map(
 }
 
 void read_and_build(const MapArguments& arguments, RunOptions& options) {
-  check_apart(arguments.input, arguments.folder);
   const auto reader = open_input(arguments.input, options.input);
+  check_apart(name_of(arguments.input, reader->info()), arguments.folder);
   options.pipeline.inertial.T_imu_lidar = lidar_extrinsic(options, reader->info());
   const Trajectory poses =
       doing("reading " + arguments.poses, [&] { return read_poses(arguments, options.input); });

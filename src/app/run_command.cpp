@@ -129,8 +129,9 @@ void print_results(
 
 void run(const RunArguments& arguments, RunOptions& options) {
   check(arguments.prior, arguments.folder);
-  check_apart(arguments.input, arguments.folder);
   const auto reader = open_input(arguments.input, options.input);
+  const std::string input = name_of(arguments.input, reader->info());
+  check_apart(input, arguments.folder);
   const auto pipeline = make_pipeline(arguments.prior, options, reader->info());
   const Eigen::Vector3d origin = origin_of(arguments.prior);
   const Interruption interruption;
@@ -152,7 +153,7 @@ void run(const RunArguments& arguments, RunOptions& options) {
   print_notes(reader->info());
   warn(pipeline->findings());
   const std::size_t map_points = pipeline->map().points().size();
-  check_useful(summary, map_points, ending, arguments.input);
+  check_useful(summary, map_points, ending, input);
   warn(summary.warnings());
   attempt({results.path() + "/timing.json"}, ending, [&] {
     write_timing(results.path(), summary, wall.count());

@@ -45,6 +45,10 @@ std::unique_ptr<io::SequenceReader> open_input(
   return doing("opening " + input, [&] { return io::open_sequence(input, options); });
 }
 
+std::string name_of(const std::string& input, const io::SequenceInfo& info) {
+  return info.recording.empty() ? input : info.recording;
+}
+
 std::string making_map(const MapOptions& options) {
   constexpr double kBytesPerMegabyte = 1e6;
   return fmt::format(

@@ -41,6 +41,9 @@ std::optional<RunOptions> read_run_options(const RunOptionArguments& arguments);
 std::unique_ptr<io::SequenceReader> open_input(
     const std::string& input, const io::SequenceOptions& options);
 
+/// `input` as messages name it: a pipe by the recording that comes through it.
+std::string name_of(const std::string& input, const io::SequenceInfo& info);
+
 /// "making a map ...", with the memory that `options` may need.
 std::string making_map(const MapOptions& options);
 

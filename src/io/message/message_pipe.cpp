@@ -35,7 +35,7 @@ class MessagePipe : public MessageSource {
     }
   }
 
-  const std::string& source() const { return source_; }
+  std::string recording() const override { return source_; }
   std::string format() const override { return format_; }
   std::vector<MessageTopic> topics() const override { return topics_; }
 
@@ -152,7 +152,7 @@ class MessagePipe : public MessageSource {
 std::unique_ptr<SequenceReader> open_message_pipe(
     const std::string& path, const SequenceOptions& options) {
   auto pipe = std::make_unique<MessagePipe>(path);
-  const std::string source = pipe->source();
+  const std::string source = pipe->recording();
   return read_messages(source, std::move(pipe), options);
 }
 

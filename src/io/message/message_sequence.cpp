@@ -90,6 +90,7 @@ class MessageSequence : public SequenceReader {
       refuse_without_clouds(topics, info_.notes);
     }
     info_.format = source_->format();
+    info_.recording = source_->recording();
     info_.scan_count = count_of(topics, lidar, is_cloud);
     info_.has_imu = count_of(topics, imu, is_imu) > 0;
     const std::vector<CloudMessage> clouds = first_clouds(lidar);

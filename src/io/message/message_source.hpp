@@ -33,6 +33,9 @@ class MessageSource {
   /// "ROS 1 bag", ...
   virtual std::string format() const = 0;
 
+  /// The recording that another program reads; empty when it is read here.
+  virtual std::string recording() const { return ""; }
+
   /// What is wrong with the recording as a whole, for the user.
   virtual std::vector<std::string> problems() const { return {}; }
 

@@ -44,6 +44,7 @@ struct SequenceOptions {
 /// What is known of a sequence before its first scan is read.
 struct SequenceInfo {
   std::string format;          ///< "folder of PCD files", "nvm sequence", "ROS 1 bag", ...
+  std::string recording;       ///< whose messages come through a pipe; empty: what was opened
   std::size_t scan_count = 0;  ///< 0: unknown
   bool has_imu = false;
   bool has_point_times = false;
