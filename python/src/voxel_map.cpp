@@ -11,6 +11,7 @@
 #include "arrays.hpp"
 #include "batch_query.hpp"
 #include "bind.hpp"
+#include "map_state.hpp"
 #include "nvm/map/serialization.hpp"
 #include "options.hpp"
 #include "shared_map.hpp"
@@ -109,18 +110,6 @@ Array<std::uint8_t> sides_of(const SharedMap& self) {
     });
     return sides;
   }));
-}
-
-nb::bytes archived(const SharedMap& self) {
-  const auto bytes = self.read([](const VoxelMap& map) { return MapArchive::write(map); });
-  return nb::bytes(bytes.data(), bytes.size());
-}
-
-void restore(SharedMap& self, const nb::bytes& state) {
-  const auto* begin = static_cast<const std::uint8_t*>(state.data());
-  const std::vector<std::uint8_t> bytes(begin, begin + state.size());
-  const nb::gil_scoped_release no_gil;
-  new (&self) SharedMap(MapArchive::read(bytes));
 }
 
 std::string described(const SharedMap& self) {
@@ -229,7 +218,7 @@ void bind_files(nb::class_<SharedMap>& map, nb::module_& module) {
          },
          "path"_a,
          "Write the map to a file, bit by bit. RuntimeError when that fails.")
-      .def("__getstate__", &archived)
+      .def("__getstate__", &state_of)
       .def("__setstate__", &restore);
   module.def(
       "load",

@@ -198,3 +198,22 @@ def test_bounded_maps_stay_bounded(rng):
     points = rng.uniform(-10, 10, (5000, 3))
     stats = voxel_map.insert(points, unit(rng.normal(size=(5000, 3))))
     assert voxel_map.stats().voxels == 50 and stats.evicted_voxels > 0
+
+
+class NamedMap(nvm.VoxelMap):
+    """A map of a user's own, with attributes in both places that Python has for them."""
+
+    __slots__ = ("floor", "unset", "__dict__")
+
+
+def test_pickles_and_copies_keep_what_a_subclass_has_added(rng):
+    voxel_map = NamedMap(voxel_size=0.5)
+    voxel_map.insert(*wall(rng, 100, 1.0, -1.0))
+    voxel_map.floor, voxel_map.names = 3, ["kitchen"]
+    for again in (pickle.loads(pickle.dumps(voxel_map)), copy.copy(voxel_map), copy.deepcopy(voxel_map)):
+        assert type(again) is NamedMap and (again.floor, again.names) == (3, ["kitchen"])
+        assert not hasattr(again, "unset")
+        np.testing.assert_array_equal(again.points, voxel_map.points)
+    assert copy.deepcopy(voxel_map).names is not voxel_map.names
+    bare = nvm.VoxelMap(voxel_size=0.5)
+    assert bare.__getstate__() == NamedMap(voxel_size=0.5).__getstate__()  # the bytes of the file
