@@ -114,6 +114,7 @@ TEST(Archive, ReadsVersion2) {
   EXPECT_EQ(map.options().points_per_surface, 9);
   EXPECT_EQ(map.options().surface_rule, SurfaceRule::kSmallestAngle);
   EXPECT_EQ(map.options().eviction_radius, 42.0);
+  EXPECT_FALSE(map.options().columns.time);
   std::size_t of_first_voxel = 0;
   map.for_each_within({0.22, -100.25, 7.1}, 0.23, [&](const Neighbor&) { ++of_first_voxel; });
   EXPECT_EQ(of_first_voxel, 12U);

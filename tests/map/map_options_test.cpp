@@ -53,11 +53,13 @@ TEST(MapOptions, NamesTheBadOne) {
 }
 
 // An option that visit_options() forgets is in no map file and no configuration. The names below
-// must be as many as MapOptions has members, or this does not compile.
+// must be as many as MapOptions and MapColumns have members, or this does not compile.
 TEST(MapOptions, AreAllVisitedInOrder) {
   MapOptions options;
-  auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = options;
-  const std::vector<void*> members{&a, &b, &c, &d, &e, &f, &g, &h, &i, &j, &k, &l, &m};
+  auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, columns] = options;
+  auto& [n, o, p, q] = columns;
+  const std::vector<void*> members{
+      &a, &b, &c, &d, &e, &f, &g, &h, &i, &j, &k, &l, &m, &n, &o, &p, &q};
   std::vector<void*> visited;
   visit_options(options, [&](const OptionInfo& info, auto& value, const auto&... /*choices*/) {
     visited.push_back(&value);

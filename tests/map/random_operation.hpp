@@ -32,6 +32,7 @@ inline MapOptions random_options(Rng& rng) {
   options.surface_rule = one_of(SurfaceRule::kPaper, SurfaceRule::kSmallestAngle);
   options.max_surface_angle = one_of(0.0, 0.5, 1.5707963267948966, 3.141592653589793);
   options.max_point_angle = one_of(0.1, 1.7453292519943295);
+  options.columns.intensity = one_of(false, true);
   return options;
 }
 

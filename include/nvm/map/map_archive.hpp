@@ -13,6 +13,8 @@
 #include "nvm/core/target.hpp"
 #include "nvm/map/operations/traversal.hpp"
 #include "nvm/map/storage/byte_stream.hpp"
+#include "nvm/map/storage/value_row.hpp"
+#include "nvm/map/storage/value_stream.hpp"
 #include "nvm/map/voxel_map.hpp"
 
 namespace nvm {
@@ -22,12 +24,13 @@ inline namespace NVM_TARGET {
 // everything before. All little endian. The body: the options in the order of visit_options(), the
 // voxels from the least to the most recently used, and the present epoch (see recency.hpp). A
 // voxel: its index, the epochs of the list that it stands in and of its last use, and its surfaces
-// with their points as stored and, in a map that merges points, how many each stands for. Loading
+// with their points as stored and, in a map that merges points, how many each stands for; then the
+// values of its columns. Loading
 // gives back the same map bit by bit: the same answers, and the same map after whatever is done to
 // either.
 //
-// Version 2, which is still read, had neither max_merged_points nor what it counts nor the present
-// epoch, and counted the epochs without gaps.
+// Older versions that are still read: 3 had no columns; 2 had neither max_merged_points nor what it
+// counts nor the present epoch either, and counted the epochs without gaps.
 
 /// Turns a VoxelMap into bytes and back; see save_map() and load_map().
 class MapArchive {
@@ -35,7 +38,7 @@ class MapArchive {
   static std::vector<std::uint8_t> write(const VoxelMap& map) {
     detail::ByteWriter body;
     visit_options(map.options(), OptionWriter{body});
-    write_voxels(map.engine_.storage(), body);
+    write_voxels(map.engine_.storage(), map.options().columns, body);
 
     detail::ByteWriter file;
     file.put(kMagic);
@@ -47,7 +50,7 @@ class MapArchive {
   }
 
   /// Throws std::runtime_error, saying what is wrong, unless `bytes` are exactly what write()
-  /// gives, or gave in version 2.
+  /// gives, or gave in an older version that is still read.
   static VoxelMap read(const std::vector<std::uint8_t>& bytes) {
     detail::ByteReader file(bytes.data(), bytes.size());
     check(bytes.size() >= kHeaderBytes + sizeof(std::uint32_t), "is too short for an nvm map");
@@ -76,7 +79,7 @@ class MapArchive {
 
  private:
   static constexpr std::uint64_t kMagic = 0x0a0d50414d4d564eULL;  // "NVMMAP\r\n"
-  static constexpr std::uint32_t kVersion = 3;
+  static constexpr std::uint32_t kVersion = 4;
   static constexpr std::uint32_t kOldestVersion = 2;
   static constexpr std::size_t kHeaderBytes = 20;
 
@@ -120,7 +123,11 @@ class MapArchive {
         value = in.get<std::int32_t>();
       }
     }
-    void operator()(const OptionInfo&, bool& value) const { value = get_below(2) == 1; }
+    void operator()(const OptionInfo& info, bool& value) const {
+      if (version > 3 || info.name == std::string("space_across_voxels")) {
+        value = get_below(2) == 1;
+      }
+    }
     template <class Enum, std::size_t kCount>
     void operator()(const OptionInfo&, Enum& value, const OptionChoices<Enum, kCount>&) const {
       value = static_cast<Enum>(get_below(kCount));
@@ -143,7 +150,8 @@ class MapArchive {
     return options;
   }
 
-  static void write_voxels(const detail::VoxelStorage& storage, detail::ByteWriter& out) {
+  static void write_voxels(
+      const detail::VoxelStorage& storage, const MapColumns& columns, detail::ByteWriter& out) {
     out.put(static_cast<std::uint64_t>(storage.voxel_count()));
     for (const detail::Recency::Standing& standing : storage.recency().standings()) {
       const std::uint32_t voxel = standing.id;
@@ -157,7 +165,7 @@ class MapArchive {
       out.put(standing.stamp);
       out.put(surfaces);
       for_each_surface(
-          storage, voxel, [&](std::uint32_t head) { write_surface(storage, head, out); });
+          storage, voxel, [&](std::uint32_t head) { write_surface(storage, columns, head, out); });
     }
     out.put(storage.recency().epoch());
   }
@@ -172,7 +180,10 @@ class MapArchive {
   }
 
   static void write_surface(
-      const detail::VoxelStorage& storage, std::uint32_t head, detail::ByteWriter& out) {
+      const detail::VoxelStorage& storage,
+      const MapColumns& columns,
+      std::uint32_t head,
+      detail::ByteWriter& out) {
     out.put(static_cast<std::uint8_t>(storage.chunk(head).size));
     detail::for_each_id(storage, head, [&](PointId id) {
       const detail::WrappedPoint point = detail::stored_point(storage, id);
@@ -187,6 +198,7 @@ class MapArchive {
         const int lane = static_cast<int>(id % detail::kLanes);
         out.put(static_cast<std::uint8_t>(storage.merged_points(id / detail::kLanes, lane)));
       }
+      detail::write_values(columns, detail::stored_values(storage, columns, id), out);
     });
   }
 
@@ -275,6 +287,9 @@ class MapArchive {
             "is corrupt: number of merged points");
         map.engine_.storage().restore_merged_points(last, i % detail::kLanes, merged);
       }
+      detail::ValueRow row;
+      detail::pack(map.options().columns, detail::read_values(map.options().columns, in), row);
+      map.engine_.storage().set_row(last, i % detail::kLanes, row);
     }
   }
 };

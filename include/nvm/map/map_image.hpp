@@ -97,7 +97,7 @@ class MapImage {
   };
 
   static constexpr std::uint64_t kMagic = 0x0a0d474d494d564eULL;  // "NVMIMG\r\n"
-  static constexpr std::uint32_t kVersion = 1;
+  static constexpr std::uint32_t kVersion = 2;
 
   static void check(bool ok, const char* problem) {
     if (!ok) {

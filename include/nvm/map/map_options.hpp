@@ -7,6 +7,7 @@
 #include "nvm/core/option.hpp"
 #include "nvm/core/require.hpp"
 #include "nvm/core/target.hpp"
+#include "nvm/map/point_values.hpp"
 
 namespace nvm {
 
@@ -61,6 +62,8 @@ struct MapOptions {
   Eviction eviction = Eviction::kLeastRecentlyUsed;
   /// With Eviction::kRadius: [m], at least voxel_size.
   double eviction_radius = 100.0;
+  /// What points carry beside position and normal; none of it decides anything.
+  MapColumns columns;
 
   /// Throws std::invalid_argument with the name, the value and the allowed range of the first bad
   /// member.
@@ -117,6 +120,9 @@ void visit_options(Options& options, Visitor&& visit) {
       options.eviction,
       Evictions{{{"lru", Eviction::kLeastRecentlyUsed}, {"radius", Eviction::kRadius}}});
   visit({"eviction_radius", 0.01, 1e9, "m", "With eviction: radius"}, options.eviction_radius);
+  visit_columns([&](const OptionInfo& info, auto kept, auto /*value*/) {
+    visit(info, options.columns.*kept);
+  });
 }
 
 }  // namespace NVM_TARGET

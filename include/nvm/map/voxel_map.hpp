@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "nvm/core/point_access.hpp"
+#include "nvm/core/require.hpp"
 #include "nvm/core/target.hpp"
 #include "nvm/geometry/pose.hpp"
 #include "nvm/map/insert_stats.hpp"
@@ -19,6 +20,7 @@
 #include "nvm/map/operations/map_engine.hpp"
 #include "nvm/map/operations/query_context.hpp"
 #include "nvm/map/operations/traversal.hpp"
+#include "nvm/map/point_values.hpp"
 #include "nvm/map/storage/stored_normal.hpp"
 
 namespace nvm {
@@ -72,7 +74,21 @@ class VoxelMap {
         is_point_range_v<Points>, "nvm: points must be a range of points: size(), [] and x, y, z");
     static_assert(
         is_point_range_v<Normals>, "nvm: normals must be a range of 3-vectors as long as points");
-    return engine_.insert(points, normals, T_map_scan);
+    return engine_.insert(points, normals, T_map_scan, detail::NoValues());
+  }
+
+  /// The same with what the points carry beside, of which the map keeps its columns: `values` is a
+  /// range of PointValues, as long as points. A point that is moved to a mean plane keeps those
+  /// that it came with.
+  template <class Points, class Normals, class Values>
+  NVM_SHARED InsertStats insert(
+      const Points& points, const Normals& normals, const Pose& T_map_scan, const Values& values) {
+    static_assert(
+        is_point_range_v<Points>, "nvm: points must be a range of points: size(), [] and x, y, z");
+    static_assert(
+        is_point_range_v<Normals>, "nvm: normals must be a range of 3-vectors as long as points");
+    require(points.size() == values.size(), "values.size()", values.size(), "points.size()");
+    return engine_.insert(points, normals, T_map_scan, values);
   }
 
   /// Inserts points without normals: all go to the front surface of their voxel, and only ungated
@@ -83,7 +99,16 @@ class VoxelMap {
   insert_unsided(const Points& points, const Pose& T_map_scan = Pose::Identity()) {
     static_assert(
         is_point_range_v<Points>, "nvm: points must be a range of points: size(), [] and x, y, z");
-    return engine_.insert_unsided(points, T_map_scan);
+    return engine_.insert_unsided(points, T_map_scan, detail::NoValues());
+  }
+  /// The same with values, as above.
+  template <class Points, class Values>
+  NVM_SHARED InsertStats
+  insert_unsided(const Points& points, const Pose& T_map_scan, const Values& values) {
+    static_assert(
+        is_point_range_v<Points>, "nvm: points must be a range of points: size(), [] and x, y, z");
+    require(points.size() == values.size(), "values.size()", values.size(), "points.size()");
+    return engine_.insert_unsided(points, T_map_scan, values);
   }
 
   // --- queries: const, noexcept, no allocation
@@ -128,6 +153,11 @@ class VoxelMap {
   }
   /// 0: front surface of its voxel, 1: back, and so on.
   NVM_SHARED int side(PointId id) const noexcept { return detail::side_of(engine_.storage(), id); }
+
+  /// What a stored point carries beside; zero what the map does not keep.
+  NVM_SHARED PointValues values(PointId id) const noexcept {
+    return detail::stored_values(engine_.storage(), engine_.options().columns, id);
+  }
 
   /// Calls visit(const MapPoint&) for every stored point, in an order that depends only on the
   /// map's history.

@@ -13,6 +13,7 @@
 #include "nvm/map/map_options.hpp"
 #include "nvm/map/operations/traversal.hpp"
 #include "nvm/map/storage/lattice.hpp"
+#include "nvm/map/storage/value_row.hpp"
 #include "nvm/map/storage/voxel_storage.hpp"
 
 namespace nvm::detail {
@@ -59,12 +60,16 @@ std::uint32_t erase_from_surface(
   struct Point {
     WrappedPoint position;
     StoredNormal normal;
+    ValueRow row;
   };
   std::array<Point, MapOptions::kMaxPointsPerSurface> kept;
   std::size_t count = 0;
   for_each_id(storage, head, [&](PointId id) {
     if (!region.contains(stored_position(storage, lattice, id))) {
-      kept[count++] = {stored_point(storage, id), stored_normal(storage, id)};
+      kept[count].position = stored_point(storage, id);
+      kept[count].normal = stored_normal(storage, id);
+      storage.get_row(id / kLanes, static_cast<int>(id % kLanes), kept[count].row);
+      ++count;
     }
   });
   if (count == storage.chunk(head).size) {
@@ -79,6 +84,7 @@ std::uint32_t erase_from_surface(
   std::uint32_t last = surface;
   for (std::size_t i = 0; i < count; ++i) {
     last = storage.append(surface, last, kept[i].position, kept[i].normal);
+    storage.set_row(last, static_cast<int>(i % kLanes), kept[i].row);
   }
   return surface;
 }

@@ -175,6 +175,7 @@ class Insertion {
       const SightedPlace place = admission_.find_sighting(head, room, LanePoint(point), normal);
       if (place.chunk != kNone) {
         storage_.settle(head, place.chunk, place.lane, point, normal);
+        storage_.set_row(place.chunk, place.lane, block.row(i));
         ++stats_.settled;
         return;
       }
@@ -194,7 +195,8 @@ class Insertion {
       ++stats_.map_full;
       return;
     }
-    storage_.append(head, room.chunk, point, normal);
+    const std::uint32_t chunk = storage_.append(head, room.chunk, point, normal);
+    storage_.set_row(chunk, size % kLanes, block.row(i));
     ++stats_.stored;
   }
 

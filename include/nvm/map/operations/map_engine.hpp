@@ -22,15 +22,22 @@
 #include "nvm/map/operations/normal_gate.hpp"
 #include "nvm/map/operations/point_block.hpp"
 #include "nvm/map/operations/traversal.hpp"
+#include "nvm/map/point_values.hpp"
 #include "nvm/map/sighting.hpp"
 #include "nvm/map/storage/lattice.hpp"
 #include "nvm/map/storage/map_capacity.hpp"
 #include "nvm/map/storage/stored_normal.hpp"
+#include "nvm/map/storage/value_row.hpp"
 #include "nvm/map/storage/voxel_cache.hpp"
 #include "nvm/map/storage/voxel_storage.hpp"
 
 namespace nvm::detail {
 inline namespace NVM_TARGET {
+
+/// For points without values: those are zero.
+struct NoValues {
+  PointValues operator[](std::size_t /*i*/) const { return {}; }
+};
 
 /// What is inside a VoxelMap, which says what its members do: code for the instruction set of this
 /// translation unit (nvm/core/target.hpp) on data that is the same for all of them.
@@ -69,24 +76,27 @@ class MapEngine {
   VoxelStorage& storage() noexcept { return storage_; }
   std::size_t memory_limit_bytes() const noexcept { return capacity_.bytes(); }
 
-  template <class Points, class Normals>
-  InsertStats insert(const Points& points, const Normals& normals, const Pose& T_map_scan) {
+  template <class Points, class Normals, class Values>
+  InsertStats insert(
+      const Points& points, const Normals& normals, const Pose& T_map_scan, const Values& values) {
     require(points.size() == normals.size(), "normals.size()", normals.size(), "points.size()");
     const auto fill = [&](std::size_t begin, std::size_t end, PointBlock& block) {
       for (std::size_t i = begin; i < end; ++i) {
         block.set_position(i - begin, nvm::position(points[i]));
         block.set_normal(i - begin, nvm::position(normals[i]));
       }
+      fill_rows(begin, end, values, block);
     };
     return insert_blocks(static_cast<std::size_t>(points.size()), true, T_map_scan, fill);
   }
 
-  template <class Points>
-  InsertStats insert_unsided(const Points& points, const Pose& T_map_scan) {
+  template <class Points, class Values>
+  InsertStats insert_unsided(const Points& points, const Pose& T_map_scan, const Values& values) {
     const auto fill = [&](std::size_t begin, std::size_t end, PointBlock& block) {
       for (std::size_t i = begin; i < end; ++i) {
         block.set_position(i - begin, nvm::position(points[i]));
       }
+      fill_rows(begin, end, values, block);
     };
     return insert_blocks(static_cast<std::size_t>(points.size()), false, T_map_scan, fill);
   }
@@ -109,7 +119,7 @@ class MapEngine {
   }
   template <class Visitor>
   void for_each_point(const Visitor& visit) const {
-    detail::for_each_point(storage_, lattice_, visit);
+    detail::for_each_point(storage_, lattice_, options_.columns, visit);
   }
 
   template <class Region>
@@ -144,6 +154,14 @@ class MapEngine {
     }
 #endif
     return gated_nearest(storage_, lattice_, gate, request);
+  }
+
+  template <class Values>
+  void fill_rows(
+      std::size_t begin, std::size_t end, const Values& values, PointBlock& block) const {
+    for (std::size_t i = begin; i < end && capacity_.row_bytes > 0; ++i) {
+      pack(options_.columns, values[i], block.row(i - begin));
+    }
   }
 
   template <class Fill>

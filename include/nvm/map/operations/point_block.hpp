@@ -13,6 +13,7 @@
 #include "nvm/map/storage/brick.hpp"
 #include "nvm/map/storage/lattice.hpp"
 #include "nvm/map/storage/stored_normal.hpp"
+#include "nvm/map/storage/value_row.hpp"
 #include "nvm/map/storage/voxel_cache.hpp"
 
 namespace nvm::detail {
@@ -37,6 +38,10 @@ class PointBlock {
       normal_[axis][i] = static_cast<float>(n_scan[static_cast<Eigen::Index>(axis)]);
     }
   }
+
+  /// What the map keeps of point `i` beside. Not set, and not read, where it keeps nothing.
+  ValueRow& row(std::size_t i) noexcept { return rows_[i]; }
+  const ValueRow& row(std::size_t i) const noexcept { return rows_[i]; }
 
   /// Brings the positions to the map frame (Eq. 3) and to the lattice (Eq. 4).
   [[gnu::always_inline]] void locate(const Pose& T_map_scan, const Lattice& lattice) noexcept {
@@ -175,6 +180,7 @@ class PointBlock {
   Axes<std::int8_t> stored_;
   Lane<IndexKey> key_;
   Lane<std::uint32_t> cache_slot_;
+  std::array<ValueRow, kSize> rows_;
   Lane<Status> status_;
 };
 

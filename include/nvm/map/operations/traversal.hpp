@@ -12,8 +12,10 @@
 #include "nvm/core/target.hpp"
 #include "nvm/map/map_point.hpp"
 #include "nvm/map/neighbor.hpp"
+#include "nvm/map/point_values.hpp"
 #include "nvm/map/storage/lattice.hpp"
 #include "nvm/map/storage/stored_normal.hpp"
+#include "nvm/map/storage/value_row.hpp"
 #include "nvm/map/storage/voxel_storage.hpp"
 
 namespace nvm::detail {
@@ -106,8 +108,19 @@ struct Collector {
   void operator()(const Item& item) const { items.push_back(item); }
 };
 
+inline PointValues stored_values(
+    const VoxelStorage& storage, const MapColumns& columns, PointId id) {
+  ValueRow row;
+  storage.get_row(id / kLanes, static_cast<int>(id % kLanes), row);
+  return unpack(columns, row);
+}
+
 template <class Visitor>
-void for_each_point(const VoxelStorage& storage, const Lattice& lattice, Visitor&& visit) {
+void for_each_point(
+    const VoxelStorage& storage,
+    const Lattice& lattice,
+    const MapColumns& columns,
+    Visitor&& visit) {
   storage.for_each_voxel([&](std::uint32_t front, const VoxelIndex& index) {
     int side = 0;
     for (std::uint32_t head = front; head != kNone;
@@ -116,7 +129,8 @@ void for_each_point(const VoxelStorage& storage, const Lattice& lattice, Visitor
         visit(MapPoint{
             lattice.position(index, stored_step(storage, id)),
             load_normal(stored_normal(storage, id)),
-            side});
+            side,
+            stored_values(storage, columns, id)});
       });
     }
   });

@@ -13,6 +13,7 @@
 #include "nvm/map/storage/point_chunk.hpp"
 #include "nvm/map/storage/principal_direction.hpp"
 #include "nvm/map/storage/recency.hpp"
+#include "nvm/map/storage/value_row.hpp"
 
 namespace nvm::detail {
 inline namespace NVM_TARGET {
@@ -25,7 +26,8 @@ struct MapCapacity {
   std::size_t voxels;
   std::size_t bricks;
   std::size_t chunks;
-  bool counts_merged;  // points that each stored point stands for: a byte per lane
+  bool counts_merged;     // points that each stored point stands for: a byte per lane
+  std::size_t row_bytes;  // of the values of each stored point
 
   std::size_t bytes() const {
     return voxels * sizeof(std::uint32_t) + Recency::bytes(voxels) + bricks * sizeof(Brick) +
@@ -33,7 +35,8 @@ struct MapCapacity {
   }
 
   std::size_t bytes_per_chunk() const {
-    return sizeof(PointChunk) + sizeof(NormalChunk) + (counts_merged ? kLanes : 0);
+    return sizeof(PointChunk) + sizeof(NormalChunk) +
+           kLanes * ((counts_merged ? 1 : 0) + row_bytes);
   }
 };
 
@@ -46,9 +49,10 @@ inline MapCapacity map_capacity(const MapOptions& options) {
   const std::size_t chunks_per_surface =
       (static_cast<std::size_t>(options.points_per_surface) + kLanes - 1) / kLanes;
   const bool counts_merged = options.max_merged_points > 1;
+  const std::size_t values = row_bytes(options.columns);
   const auto worst_case = [&](std::size_t voxels) {
     const std::size_t chunks = std::min(kMaxChunks, voxels * surfaces * chunks_per_surface);
-    return MapCapacity{voxels, voxels, chunks, counts_merged};
+    return MapCapacity{voxels, voxels, chunks, counts_merged, values};
   };
   const MapCapacity unlimited = worst_case(options.capacity);
   if (options.max_bytes == 0 || unlimited.bytes() <= options.max_bytes) {
@@ -56,7 +60,7 @@ inline MapCapacity map_capacity(const MapOptions& options) {
   }
   const auto typical = [&](std::size_t voxels) {
     const std::size_t bricks = std::max<std::size_t>(1, voxels / 4);
-    return MapCapacity{voxels, bricks, std::max<std::size_t>(1, 2 * voxels), counts_merged};
+    return MapCapacity{voxels, bricks, std::max<std::size_t>(1, 2 * voxels), counts_merged, values};
   };
   std::size_t voxels = 1;
   for (std::size_t step = MapOptions::kMaxCapacity; step > 0; step /= 2) {  // the largest that fits

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 
 #include "nvm/core/assert.hpp"
@@ -14,6 +15,7 @@
 #include "nvm/map/storage/point_chunk.hpp"
 #include "nvm/map/storage/pool.hpp"
 #include "nvm/map/storage/principal_direction.hpp"
+#include "nvm/map/storage/value_row.hpp"
 
 namespace nvm::detail {
 inline namespace NVM_TARGET {
@@ -30,12 +32,17 @@ class SurfaceStorage {
   SurfaceStorage() = default;
   explicit SurfaceStorage(const MapCapacity& capacity)
       : bytes_per_chunk_(capacity.bytes_per_chunk()),
+        row_bytes_(capacity.row_bytes),
         chunk_ids_(capacity.chunks),
         chunks_(allocate_uninitialized<PointChunk>(capacity.chunks)),
         normals_(allocate_uninitialized<NormalChunk>(capacity.chunks)),
         merged_(
             capacity.counts_merged ? allocate_uninitialized<MergedCounts>(capacity.chunks)
-                                   : nullptr) {}
+                                   : nullptr),
+        rows_(
+            capacity.row_bytes > 0
+                ? allocate_uninitialized<std::uint8_t>(capacity.chunks * row_bytes_per_chunk())
+                : nullptr) {}
 
   const PointChunk* chunks() const noexcept { return chunks_.get(); }
   const NormalChunk* normals() const noexcept { return normals_.get(); }
@@ -51,6 +58,17 @@ class SurfaceStorage {
       fewest = std::min(fewest, merged);
     }
     return fewest >= count;
+  }
+  /// The values of a point; nothing is copied where the map keeps none.
+  void get_row(std::uint32_t chunk, int lane, ValueRow& row) const noexcept {
+    if (row_bytes_ > 0) {
+      std::memcpy(row.data(), &rows_[row_begin(chunk, lane)], row_bytes_);
+    }
+  }
+  void set_row(std::uint32_t chunk, int lane, const ValueRow& row) noexcept {
+    if (row_bytes_ > 0) {
+      std::memcpy(&rows_[row_begin(chunk, lane)], row.data(), row_bytes_);
+    }
   }
   /// Starts to load what an append to the surface at `head` touches.
   [[gnu::always_inline]] void prefetch_chunk(std::uint32_t head) const noexcept {
@@ -80,7 +98,7 @@ class SurfaceStorage {
 
   /// Adds a point to the surface at `head`, whose last chunk is `last`. There must be room for a
   /// chunk when `last` is full. The principal direction is up to date afterwards. Returns the new
-  /// last chunk.
+  /// last chunk. The point's values are the caller's business, here and in settle().
   std::uint32_t append(
       std::uint32_t head,
       std::uint32_t last,
@@ -152,6 +170,10 @@ class SurfaceStorage {
     if (self.counts_merged()) {
       visitor.array(self.merged_, used, self.chunk_ids_.capacity());
     }
+    if (self.row_bytes_ > 0) {
+      const std::size_t bytes = self.row_bytes_per_chunk();
+      visitor.array(self.rows_, used * bytes, self.chunk_ids_.capacity() * bytes);
+    }
   }
 
  protected:
@@ -172,6 +194,11 @@ class SurfaceStorage {
       std::fill_n(merged_[id], kLanes, kNothingToMerge);
     }
     return id;
+  }
+
+  std::size_t row_bytes_per_chunk() const noexcept { return kLanes * row_bytes_; }
+  std::size_t row_begin(std::uint32_t chunk, int lane) const noexcept {
+    return (std::size_t{chunk} * kLanes + static_cast<std::size_t>(lane)) * row_bytes_;
   }
 
   /// After a sighting has joined the surface, whose direction it is only as long as it is alone.
@@ -255,10 +282,12 @@ class SurfaceStorage {
   static constexpr std::uint8_t kNothingToMerge = 255;  // of a lane without a point
 
   std::size_t bytes_per_chunk_ = 0;
+  std::size_t row_bytes_ = 0;
   IndexAllocator chunk_ids_;
   RawArray<PointChunk> chunks_;
   RawArray<NormalChunk> normals_;
   RawArray<MergedCounts> merged_;  // null unless they are counted
+  RawArray<std::uint8_t> rows_;    // null without values
   std::size_t point_count_ = 0;
 };
 
