@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <vector>
@@ -13,7 +14,6 @@
 #include "adapters/common/normal_finder.hpp"
 #include "adapters/common/point_fields.hpp"
 #include "adapters/common/surfaces.hpp"
-#include "adapters/common/wide_search.hpp"
 #include "nvm/core/point_access.hpp"
 #include "nvm/map/voxel_map.hpp"
 
@@ -92,7 +92,7 @@ class HostMap {
     }
     const std::size_t count =
         gated ? nearest_on_surface(to_grid(point), normal, search, out)
-              : nearest_within_reach(*map_, to_grid(point), nullptr, reaching(search), out);
+              : map_->nearest(to_grid(point), reaching(search), out, query_context());
     if (options_.grid_offset != 0.0) {
       std::for_each(out, out + count, [this](Neighbor& n) { n.position = from_grid(n.position); });
     }
@@ -135,8 +135,16 @@ class HostMap {
            options_.normals.query != NormalSource::kNone;
   }
 
-  ReachingSearch reaching(const NearestSearch& search) const noexcept {
-    return {search, options_.reach};
+  static VoxelMap::QueryContext& query_context() noexcept {
+    thread_local VoxelMap::QueryContext context;
+    return context;
+  }
+
+  NearestSearch reaching(NearestSearch search) const noexcept {
+    constexpr double kEverywhere = 1 << 22;  // rings
+    const double rings = std::ceil(options_.reach / options_.map.voxel_size);
+    search.rings = std::max(search.rings, static_cast<int>(std::min(rings, kEverywhere)));
+    return search;
   }
 
   std::size_t nearest_on_surface(
@@ -145,7 +153,8 @@ class HostMap {
       const NearestSearch& search,
       Neighbor* out) const noexcept {
     if (options_.surface_neighbors == 0) {
-      const std::size_t count = nearest_within_reach(*map_, point, &normal, reaching(search), out);
+      const std::size_t count =
+          map_->nearest(point, normal, reaching(search), out, query_context());
       return !is_sighting(normal) || surface_of(out, count, normal, max_surface_deviation()) ? count
                                                                                              : 0;
     }
@@ -153,7 +162,7 @@ class HostMap {
     NearestSearch wider = search;
     wider.count = std::min(std::max(search.count, options_.surface_neighbors), kMaxNeighbors);
     const std::size_t all =
-        nearest_within_reach(*map_, point, &normal, reaching(wider), found.data());
+        map_->nearest(point, normal, reaching(wider), found.data(), query_context());
     const std::optional<Plane> plane =
         surface_of(found.data(), all, normal, max_surface_deviation());
     if (!plane) {

@@ -43,9 +43,8 @@ struct HostOptions {
   /// Eviction::kRadius is measured from the view point.
   MapOptions map;
   NormalPolicy normals;
-  /// Queries that find too few neighbours in the 27 voxels around them look on, to this distance
-  /// [m]; 0: they do not. Beyond the 27 voxels only the normals of points are compared, not those
-  /// of surfaces.
+  /// Queries that find too few neighbours in the 27 voxels around them look on, in all voxels that
+  /// are no farther away than this [m] (NearestSearch::rings); 0: they do not.
   double reach = 0.0;
   /// For hosts that fit planes to few neighbours: queries with a normal look at so many, return
   /// those that were asked for moved onto the plane of all, and nothing when these are no surface

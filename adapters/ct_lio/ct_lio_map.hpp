@@ -57,15 +57,14 @@ class CtLioMap {
 
   /// The up to `count` (at most 64) nearest points, nearest first, that agree with `normal`, all in
   /// the map frame. `ring` 1 looks into 27 voxels, 2 into 125 as the hosts do in their first
-  /// frames; beyond 27 only the normals of points are compared. A `normal` that is neither
-  /// a unit vector nor a sighting stands for none.
+  /// frames. A `normal` that is neither a unit vector nor a sighting stands for none.
   Points search(
       const Eigen::Vector3d& point, const Eigen::Vector3d& normal, int count, int ring = 1) const {
     std::array<Neighbor, kMaxNeighbors> found;
     const auto wanted = static_cast<std::size_t>(std::clamp<int>(count, 0, kMaxNeighbors));
     const Eigen::Vector3f gate = normal.cast<float>();
-    const std::size_t size = ring > 1 ? search_rings(point, gate, wanted, ring, found.data())
-                                      : search_near(point, gate, wanted, found.data());
+    const NearestSearch search{wanted, kAnyDistance, Gate::kSurfaces, ring};
+    const std::size_t size = map_.nearest(point, gate, search, found.data());
     Points points(size);
     std::transform(found.begin(), found.begin() + size, points.begin(), [](const Neighbor& n) {
       return n.position;
@@ -98,41 +97,6 @@ class CtLioMap {
 
  private:
   static constexpr double kAnyDistance = 1e6;
-
-  std::size_t search_near(
-      const Eigen::Vector3d& point,
-      const Eigen::Vector3f& normal,
-      std::size_t wanted,
-      Neighbor* out) const noexcept {
-    return map_.nearest(point, normal, {wanted, kAnyDistance, Gate::kSurfaces}, out);
-  }
-
-  std::size_t search_rings(
-      const Eigen::Vector3d& point,
-      const Eigen::Vector3f& normal,
-      std::size_t wanted,
-      int ring,
-      Neighbor* out) const noexcept {
-    const bool is_sighted = map_.normals().takes(normal);
-    const bool gated = is_sighted || is_unit_normal(normal);
-    const HostOptions& options = map_.options();
-    const bool refuses = !gated && options.normals.query != NormalSource::kNone &&
-                         options.normals.missing == MissingNormal::kDrop;
-    if (map_.map() == nullptr || refuses) {
-      return 0;
-    }
-    const double size = options.map.voxel_size;
-    const auto min_dot = static_cast<float>(std::cos(options.map.max_point_angle));
-    const Eigen::Array3d center = (point.array() / size).floor();
-    const auto accepts = [&](const Neighbor& n) {
-      const Eigen::Array3d apart = ((n.position.array() / size).floor() - center).abs();
-      return apart.maxCoeff() <= ring &&
-             (!gated || faces(map_.map()->normal(n.id), normal, min_dot));
-    };
-    const NearestSearch search{wanted, (ring + 1) * std::sqrt(3.0) * size, Gate::kPoints};
-    const std::size_t count = nearest_wide(*map_.map(), point, search, accepts, out);
-    return is_sighted && !surface_of(out, count, normal, map_.max_surface_deviation()) ? 0 : count;
-  }
 
   HostMap map_;
 };

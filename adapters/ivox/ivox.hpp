@@ -124,7 +124,7 @@ class IVox {
   }
 
   std::size_t search_nearby(
-      const PointType& point, const nvm::NearestSearch& search, nvm::Neighbor* out) const noexcept {
+      const PointType& point, const nvm::NearestSearch& search, nvm::Neighbor* out) const {
     if (map_.map() == nullptr) {
       return 0;
     }
@@ -135,18 +135,23 @@ class IVox {
     const Eigen::Vector3d query = map_.to_grid(nvm::position(point));
     const Eigen::Array3d center = cell(query);
     const auto steps = static_cast<double>(options_.nearby_type_);  // along the axes, to a voxel
-    nvm::NearestSearch nearby = search;
-    nearby.max_distance = std::min(search.max_distance, 2.0 * std::sqrt(3.0) * size);
-    const std::size_t count = nvm::adapters::nearest_wide(
-        *map_.map(),
-        query,
-        nearby,
-        [&](const nvm::Neighbor& n) {
-          const Eigen::Array3d apart = (cell(n.position) - center).abs();
-          return apart.maxCoeff() <= 1.0 && apart.sum() <= steps;
-        },
-        out);
-    std::for_each(out, out + count, [this](auto& n) { n.position = map_.from_grid(n.position); });
+    const double reach = std::min(search.max_distance, 2.0 * std::sqrt(3.0) * size);
+    std::vector<nvm::Neighbor> nearby;
+    map_.map()->for_each_within(query, reach, [&](const nvm::Neighbor& n) {
+      const Eigen::Array3d apart = (cell(n.position) - center).abs();
+      if (apart.maxCoeff() <= 1.0 && apart.sum() <= steps) {
+        nearby.push_back(n);
+      }
+    });
+    const std::size_t count = std::min({search.count, nearby.size(), nvm::kMaxNeighbors});
+    const auto end = nearby.begin() + static_cast<std::ptrdiff_t>(count);
+    std::partial_sort(nearby.begin(), end, nearby.end(), [](const auto& a, const auto& b) {
+      return a.sq_distance != b.sq_distance ? a.sq_distance < b.sq_distance : a.id < b.id;
+    });
+    std::transform(nearby.begin(), end, out, [this](nvm::Neighbor n) {
+      n.position = map_.from_grid(n.position);
+      return n;
+    });
     return count;
   }
 

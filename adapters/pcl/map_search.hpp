@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "adapters/common/point_fields.hpp"
-#include "adapters/common/wide_search.hpp"
 #include "nvm/map/voxel_map.hpp"
 
 namespace nvm::adapters {
@@ -68,12 +67,9 @@ class MapSearch : public ::pcl::search::Search<PointT> {
       return copy(collect(position(point), kEverywhere, wanted), indices, sq_distances);
     }
     std::array<Neighbor, kMaxNeighbors> found;
-    const std::size_t count = nearest_within_reach(
-        map_,
-        position(point),
-        nullptr,
-        {{wanted, kEverywhere, Gate::kSurfaces}, kEverywhere},
-        found.data());
+    VoxelMap::QueryContext context;
+    const std::size_t count = map_.nearest(
+        position(point), {wanted, kEverywhere, Gate::kSurfaces, kAllRings}, found.data(), context);
     return copy({found.begin(), found.begin() + count}, indices, sq_distances);
   }
 
@@ -90,6 +86,7 @@ class MapSearch : public ::pcl::search::Search<PointT> {
 
  private:
   static constexpr double kEverywhere = std::numeric_limits<double>::infinity();
+  static constexpr int kAllRings = std::numeric_limits<int>::max();
 
   /// The `wanted` nearest points within `radius` [m], ascending.
   std::vector<Neighbor> collect(

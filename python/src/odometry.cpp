@@ -223,11 +223,16 @@ void bind_odometry(nb::module_& module) {
              nb::handle points,
              nb::handle times,
              nb::handle begin,
-             nb::handle end) { return self.add_scan(timed_scan(points, times, begin, end)); },
+             nb::handle end,
+             nb::handle intensity) {
+            return self.add_scan(timed_scan(points, times, begin, end, intensity));
+          },
           "points"_a.none(),
           "times"_a.none(),
           "begin"_a = nb::none(),
           "end"_a = nb::none(),
+          nb::kw_only(),
+          "intensity"_a = nb::none(),
           kRegisterDoc)
       .def("register", &Odometry::add_scan, "scan"_a, "A Scan, which `ScanStream.convert` gives.")
       .def("findings", &Odometry::findings, kFindingsDoc)

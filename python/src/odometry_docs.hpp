@@ -66,6 +66,8 @@ times : (N,) float, or float
     that sees all points at once. Without `begin` absolute, and float64; with it, from it on.
 begin, end : float, optional
     Of the sweep [s]; by default of the points. The pose is that at the end.
+intensity : (N,) float, optional
+    Of the returns, for the map: ``odometry.map.column("intensity")``.
 
 Returns
 -------

@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string>
-#include <utility>
+#include <vector>
 
 #include "arrays.hpp"
 #include "common/printed.hpp"
@@ -34,26 +35,35 @@ double finite_number(nb::handle object, const char* name) {
   return number;
 }
 
-/// Positions and finite times of the finite points, by ascending time.
-std::vector<std::pair<double, Eigen::Vector3d>> finite_points(
-    const Vectors& points, const Numbers& times) {
-  std::vector<std::pair<double, Eigen::Vector3d>> finite;
+struct GivenPoint {
+  double time;
+  Eigen::Vector3d position;
+  double intensity;
+};
+
+/// The finite points with finite times, by ascending time.
+std::vector<GivenPoint> finite_points(
+    const Vectors& points, const Numbers& times, const std::optional<Numbers>& intensity) {
+  std::vector<GivenPoint> finite;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Vector3d point = points[i];
     if (point.allFinite() && std::isfinite(times[i])) {
-      finite.emplace_back(times[i], point);
+      finite.push_back({times[i], point, intensity ? (*intensity)[i] : 0.0});
     }
   }
-  std::stable_sort(
-      finite.begin(), finite.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::stable_sort(finite.begin(), finite.end(), [](const GivenPoint& a, const GivenPoint& b) {
+    return a.time < b.time;
+  });
   return finite;
 }
 
-TimedPoint timed_point(const Eigen::Vector3d& position, double dt) {
+TimedPoint timed_point(const GivenPoint& given, double dt) {
+  const Eigen::Vector3d& position = given.position;
   TimedPoint point;
   point.x = static_cast<float>(position.x());
   point.y = static_cast<float>(position.y());
   point.z = static_cast<float>(position.z());
+  point.intensity = static_cast<float>(given.intensity);
   point.dt = static_cast<float>(dt);
   return point;
 }
@@ -76,13 +86,19 @@ nb::object rows_of(nb::handle object, bool is_single) {
 
 }  // namespace
 
-Scan timed_scan(nb::handle points, nb::handle times, nb::handle begin, nb::handle end) {
+Scan timed_scan(
+    nb::handle points, nb::handle times, nb::handle begin, nb::handle end, nb::handle intensity) {
   const Vectors positions(points, "points");
   const Numbers stamps(expanded(times, positions), "times");
   require_same_size(stamps.size(), "times", positions.size(), "points");
-  const auto finite = finite_points(positions, stamps);
-  const double first = finite.empty() ? 0.0 : finite.front().first;
-  const double last = finite.empty() ? 0.0 : finite.back().first;
+  std::optional<Numbers> intensities;
+  if (!intensity.is_none()) {
+    intensities.emplace(intensity, "intensity");
+    require_same_size(intensities->size(), "intensity", positions.size(), "points");
+  }
+  const std::vector<GivenPoint> finite = finite_points(positions, stamps, intensities);
+  const double first = finite.empty() ? 0.0 : finite.front().time;
+  const double last = finite.empty() ? 0.0 : finite.back().time;
   Scan scan;
   double origin = 0.0;  // of the times, to make them count from t_begin
   if (begin.is_none()) {
@@ -107,8 +123,8 @@ Scan timed_scan(nb::handle points, nb::handle times, nb::handle begin, nb::handl
         last - first));
   }
   scan.points.reserve(finite.size());
-  for (const auto& [time, position] : finite) {
-    scan.points.push_back(timed_point(position, time - origin));
+  for (const GivenPoint& point : finite) {
+    scan.points.push_back(timed_point(point, point.time - origin));
   }
   return scan;
 }

@@ -11,6 +11,7 @@
 #include "arrays.hpp"
 #include "batch_query.hpp"
 #include "bind.hpp"
+#include "given_values.hpp"
 #include "map_state.hpp"
 #include "nvm/map/serialization.hpp"
 #include "options.hpp"
@@ -24,15 +25,28 @@ namespace {
 
 using namespace nb::literals;
 
-InsertStats insert(SharedMap& self, nb::handle points, nb::handle normals, nb::handle T_map_scan) {
+MapColumns columns_of(const SharedMap& self) {
+  return self.read([](const VoxelMap& map) { return map.options().columns; });
+}
+
+InsertStats insert(
+    SharedMap& self,
+    nb::handle points,
+    nb::handle normals,
+    nb::handle T_map_scan,
+    nb::handle intensity,
+    nb::handle time,
+    nb::handle color,
+    nb::handle label) {
   const Vectors positions(points, "points");
   const Pose pose = pose_from(T_map_scan, "T_map_scan");
+  const GivenValues values(intensity, time, color, label, columns_of(self), positions.size());
   if (normals.is_none()) {
-    return self.write([&](VoxelMap& map) { return map.insert_unsided(positions, pose); });
+    return self.write([&](VoxelMap& map) { return map.insert_unsided(positions, pose, values); });
   }
   const Vectors directions(normals, "normals");
   require_same_size(directions.size(), "normals", positions.size(), "points");
-  return self.write([&](VoxelMap& map) { return map.insert(positions, directions, pose); });
+  return self.write([&](VoxelMap& map) { return map.insert(positions, directions, pose, values); });
 }
 
 nb::tuple nearest(
@@ -41,8 +55,10 @@ nb::tuple nearest(
     nb::handle normals,
     const Integer& k,
     double max_distance,
+    const Integer& rings,
     const Integer& threads) {
   constexpr std::size_t kWorthThreads = 4096;
+  constexpr int kMostRings = 1 << 22;  // from one end of any map to the other
   const auto count = static_cast<std::size_t>(k.from("k", 1, kMaxNeighbors));
   require(max_distance >= 0.0, "max_distance", max_distance, "zero or more [m]");
   const Vectors positions(points, "points");
@@ -55,7 +71,7 @@ nb::tuple nearest(
       self,
       positions,
       directions ? &*directions : nullptr,
-      {count, max_distance},
+      {count, max_distance, Gate::kSurfaces, static_cast<int>(rings.from("rings", 1, kMostRings))},
       make_executor(threads, positions.size(), kWorthThreads));
   return nb::make_tuple(
       to_array(std::move(answers.distances), positions.size(), count),
@@ -110,6 +126,16 @@ Array<std::uint8_t> sides_of(const SharedMap& self) {
     });
     return sides;
   }));
+}
+
+nb::object column_of(const SharedMap& self, const std::string& name) {
+  const auto values = self.read([](const VoxelMap& map) {
+    std::vector<PointValues> values;
+    values.reserve(map.size());
+    SharedMap::for_each(map, [&](const Neighbor& p) { values.push_back(map.values(p.id)); });
+    return values;
+  });
+  return column_array(values, columns_of(self), name);
 }
 
 std::string described(const SharedMap& self) {
@@ -194,6 +220,7 @@ void bind_contents(nb::class_<SharedMap>& map) {
           &sides_of,
           nb::rv_policy::automatic,
           "(N,) uint8: 0 front of its voxel, 1 back: a copy.")
+      .def("column", &column_of, "name"_a, kColumnDoc)
       .def_prop_ro(
           "options",
           [](const SharedMap& self) {
@@ -250,6 +277,11 @@ void bind_voxel_map(nb::module_& module) {
           "points"_a.none(),
           "normals"_a.none(),
           "T_map_scan"_a = nb::none(),
+          nb::kw_only(),
+          "intensity"_a = nb::none(),
+          "time"_a = nb::none(),
+          "color"_a = nb::none(),
+          "label"_a = nb::none(),
           kInsertDoc)
       .def(
           "nearest",
@@ -259,6 +291,7 @@ void bind_voxel_map(nb::module_& module) {
           "k"_a = 5,
           "max_distance"_a = 1.0,
           nb::kw_only(),
+          "rings"_a = 1,
           "threads"_a = 0,
           kNearestDoc)
       .def("within", &within, "center"_a.none(), "radius"_a, kWithinDoc);

@@ -28,6 +28,10 @@ normals : (N, 3) float or None
     them.
 T_map_scan : (4, 4) float, optional
     Pose of the scan in the map; the identity without it.
+intensity, time, color, label : (N,) number, color (N, 3), optional
+    What points carry beside, kept by a map that was made with ``intensity=True`` and so on: float32,
+    float64 [s], 0 to 255, and 0 to 65535. Zero where they are not given. A point that is moved to a
+    mean plane keeps those that it came with.
 
 Returns
 -------
@@ -37,11 +41,30 @@ InsertStats
 Raises
 ------
 ValueError
-    For arrays of other shapes, unequal lengths, or a pose that is not rigid.)";
+    For arrays of other shapes, unequal lengths, a pose that is not rigid, or a column that the map
+    does not keep.)";
+
+inline constexpr char kColumnDoc[] =
+    R"(What the points carry beside: a copy, in the order of `points`.
+
+Parameters
+----------
+name : str
+    ``"intensity"``, ``"time"``, ``"color"`` or ``"label"``, of those that the map keeps.
+
+Returns
+-------
+(N,) float32, float64 or uint16, or (N, 3) uint8 for the colour
+
+Raises
+------
+ValueError
+    For another name, or a column that the map does not keep.)";
 
 inline constexpr char kNearestDoc[] = R"(Find the nearest stored points of many points.
 
-Looks at the 27 voxels around each point, so neighbours lie at most one to two voxel sizes away.
+Looks at the 27 voxels around each point, so neighbours lie at most one to two voxel sizes away;
+with more `rings` farther, and more slowly.
 
 Parameters
 ----------
@@ -54,6 +77,8 @@ k : int
     How many, 1 to 64.
 max_distance : float
     [m].
+rings : int
+    Of voxels around that of the point: 1 for the 27, n for (2 n + 1)**3.
 threads : int
     0: all cores, for batches that are worth it. The answer does not depend on it.
 

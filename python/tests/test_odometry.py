@@ -237,3 +237,18 @@ def test_simulation_and_evaluation_are_those_of_the_program(tmp_path, monkeypatc
     assert len((other / "scans.csv").read_text().splitlines()) == 1 + 5
     with pytest.raises(RuntimeError, match="no_such_scene"):
         nvm.simulate("no_such_scene", tmp_path / "none")
+
+
+def test_maps_carry_the_intensities_of_the_returns(rng):
+    odometry = nvm.Odometry()
+    clouds = []
+    for i, (points, time) in enumerate(walk(rng)):
+        order = rng.permutation(len(points))
+        odometry.register(points[order], time, intensity=10_000 * i + order)
+        clouds.append(points)
+    assert len(odometry.map) > 100
+    for number, point in zip(odometry.map.column("intensity").astype(int), odometry.map.points):
+        scan, row = divmod(number, 10_000)
+        np.testing.assert_allclose(point, clouds[scan][row] + scan * STEP, atol=0.03)
+    with pytest.raises(ValueError, match="intensity"):
+        odometry.register(points, time + 1, intensity=[1.0])

@@ -15,7 +15,6 @@
 #include "io/result/map_files.hpp"
 #include "io/result/map_origin.hpp"
 #include "nvm/map/serialization.hpp"
-#include "nvm/map/sighting.hpp"
 
 namespace nvm::app {
 
@@ -46,7 +45,7 @@ void write_export(const ExportArguments& arguments) {
     if (is_image(arguments.out)) {
       write_image(map, origin, arguments.out);
     } else {
-      io::write_map_cloud(arguments.out, io::map_cloud_of(without_sightings(map.points()), origin));
+      io::write_map_cloud(arguments.out, io::map_cloud_of(map, origin));
     }
   });
   interruption.check(arguments.out + " is whole");

@@ -21,7 +21,6 @@
 #include "io/result/map_origin.hpp"
 #include "io/result/tile_store.hpp"
 #include "nvm/map/serialization.hpp"
-#include "nvm/map/sighting.hpp"
 #include "survey/keyframes_beside.hpp"
 #include "survey/plan.hpp"
 #include "survey/survey.hpp"
@@ -56,7 +55,7 @@ io::MapCloud read_map(const std::string& path) {
   if (std::filesystem::is_directory(path)) {
     return io::read_tile_store(path);
   }
-  return io::map_cloud_of(without_sightings(load_map(path).points()), io::read_origin(path));
+  return io::map_cloud_of(load_map(path), io::read_origin(path));
 }
 
 /// What tells of passes over the map file `map`; without it they are unknown.

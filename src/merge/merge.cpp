@@ -35,12 +35,15 @@ void check_alike(const std::vector<Session>& sessions) {
   }
 }
 
-/// Those of the first session, with room for all.
+/// Those of the first session, with room for all, and for what any of them carries.
 MapOptions options_for(const std::vector<Session>& sessions) {
   MapOptions options = sessions.front().map.options();
   std::size_t capacity = 0;
   for (const Session& session : sessions) {
     capacity += session.map.options().capacity;
+    visit_columns([&](const OptionInfo&, auto kept, auto /*value*/) {
+      options.columns.*kept = options.columns.*kept || session.map.options().columns.*kept;
+    });
   }
   options.capacity = std::min(capacity, MapOptions::kMaxCapacity);
   options.max_bytes = 0;
@@ -53,15 +56,18 @@ void insert(const Session& session, const Pose& T_map_session, VoxelMap& map) {
   constexpr std::size_t kBlock = 65536;  // so that large maps are not held twice
   std::vector<Eigen::Vector3f> points;
   std::vector<Eigen::Vector3f> normals;
+  std::vector<PointValues> values;
   std::size_t evicted = 0;
   const auto insert_block = [&] {
-    evicted += map.insert(points, normals, T_map_session).evicted_points;
+    evicted += map.insert(points, normals, T_map_session, values).evicted_points;
     points.clear();
     normals.clear();
+    values.clear();
   };
   session.map.for_each_point([&](const MapPoint& point) {
     points.push_back(point.position.cast<float>());
     normals.push_back(point.normal);
+    values.push_back(point.values);
     if (points.size() == kBlock) {
       insert_block();
     }

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "io/cloud/point_records.hpp"
 #include "io/result/map_cloud.hpp"
 #include "io/sequence/trajectory_io.hpp"
 #include "program_fixture.hpp"
@@ -133,6 +134,7 @@ TEST_F(ProgramTest, MapFromPosesInfoAndExport) {
     EXPECT_EQ(io::read_tum(path("map/trajectory.tum")).size(), 5U);
   }
   const io::MapCloud written = io::read_map_cloud(path("map/map.ply"));
+  EXPECT_EQ(io::read_points(path("map/map.ply")).find({"intensity"}), nullptr) << "scans have none";
   const std::size_t points = written.positions.size();
   EXPECT_THAT(nvm("info " + path("map/map.nvm")).output, HasSubstr(std::to_string(points)));
   for (const std::string name : {"again.ply", "again.pcd"}) {

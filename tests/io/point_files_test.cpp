@@ -138,6 +138,31 @@ TEST_F(PointFiles, MapCloudReadsBackFromPlyAndPcd) {
   }
 }
 
+TEST_F(PointFiles, MapCloudHasTheColumnsThatAreKept) {
+  MapCloud cloud;
+  for (int i = 0; i < 9; ++i) {
+    cloud.positions.emplace_back(i, 0.0, 0.0);
+    PointValues& values = cloud.values.emplace_back();
+    values.intensity = 0.5F * static_cast<float>(i);
+    values.time = 1e9 + 0.001 * i;
+    values.color = {static_cast<std::uint8_t>(i), 200, 255};
+    values.label = static_cast<std::uint16_t>(1000 * i);
+  }
+  cloud.columns.intensity = cloud.columns.time = cloud.columns.color = true;
+  for (const char* name : {"map.ply", "map.pcd"}) {
+    write_map_cloud(path(name), cloud);
+    const PointRecords records = read_points(path(name));
+    EXPECT_EQ(column(records, "intensity")[3], 1.5);
+    EXPECT_EQ(column(records, "time")[3], 1e9 + 0.003);
+    EXPECT_EQ(column(records, "red")[3], 3);
+    EXPECT_EQ(column(records, "green")[3], 200);
+    EXPECT_EQ(column(records, "blue")[3], 255);
+    EXPECT_EQ(records.find({"label"}), nullptr);
+  }
+  cloud.values.pop_back();
+  EXPECT_THROW(write_map_cloud(path("map.ply"), cloud), std::invalid_argument);
+}
+
 TEST_F(PointFiles, MapCloudWithoutNormalsOrOfUnequalLengths) {
   MapCloud cloud;
   cloud.positions = {Eigen::Vector3d(1, 2, 3)};

@@ -34,7 +34,8 @@ class ContinuousMatcherTest : public ::testing::Test {
  protected:
   ContinuousMatcherTest() : map_(make_map(MapType::kNvm, {})) {
     const test::RoomScan mapped = room_.scan(truth_, 40'000, 0.0, rng_);
-    map_->insert(mapped.points, mapped.normals, truth_);
+    map_->insert(
+        mapped.points, mapped.normals, std::vector<PointValues>(mapped.points.size()), truth_);
     const test::RoomScan seen = room_.scan(truth_, 1500, 0.0, rng_);
     scan_.scan.points = seen.points;
     scan_.scan.viewpoints.assign(seen.points.size(), Eigen::Vector3f::Zero());

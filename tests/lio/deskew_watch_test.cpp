@@ -34,7 +34,8 @@ std::string finding(double share, int scans, double turning) {
   const std::unique_ptr<LioMap> map = make_map(MapType::kNvm, MapOptions{});
   for (int i = 0; i < 20; ++i) {
     const test::RoomScan scan = room.scan(Pose::Identity(), 3000, 0.005, rng);
-    map->insert(scan.points, scan.normals, Pose::Identity());
+    map->insert(
+        scan.points, scan.normals, std::vector<PointValues>(scan.points.size()), Pose::Identity());
   }
   Pose T_body_lidar = Pose::Identity();
   T_body_lidar.linear() = so3_exp({0.3, -1.0, 2.0});

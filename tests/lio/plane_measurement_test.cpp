@@ -29,7 +29,11 @@ class PlaneMeasurementTest : public ::testing::Test {
     truth.velocity = {1.5, -0.8, 0.4};
     truth.gyro_bias = {0.01, -0.02, 0.03};
     const test::RoomScan mapped = room_.scan(truth.T_world_lidar(), 40'000, 0.004, rng_);
-    map_->insert(mapped.points, mapped.normals, truth.T_world_lidar());
+    map_->insert(
+        mapped.points,
+        mapped.normals,
+        std::vector<PointValues>(mapped.points.size()),
+        truth.T_world_lidar());
     const test::RoomScan seen = room_.scan(truth.T_world_lidar(), 60, 0.004, rng_);
     std::uniform_real_distribution<float> age(0.0F, 0.1F);
     scan_.points = seen.points;

@@ -52,6 +52,7 @@ TEST_P(NearestOracle, AgreesWithBruteForce) {
       search.count = std::array<std::size_t, 4>{1, 5, 20, kMaxNeighbors}[rng() % 4];
       search.max_distance = std::array<double, 4>{0.05, 0.3, 1.0, 100.0}[rng() % 4];
       search.gate = i % 3 == 0 ? Gate::kPoints : Gate::kSurfaces;
+      search.rings = std::array<int, 6>{1, 1, 2, 3, 9, std::numeric_limits<int>::max()}[rng() % 6];
 
       std::array<Neighbor, kMaxNeighbors> found;
       SCOPED_TRACE(::testing::Message() << search.count << " within " << search.max_distance);
@@ -91,6 +92,36 @@ TEST(Nearest, AnswersDoNotDependOnTheContext) {
       ASSERT_EQ(a[j].id, b[j].id);
     }
   }
+}
+
+// Boxes of voxels grow until the answer is settled: the answer is that of the last.
+TEST(Nearest, FindsWhatIsFarAwayInItsRings) {
+  VoxelMap map;
+  map.insert(
+      std::vector<Eigen::Vector3d>{{10.0, 0.1, 0.1}, {-4e4, 0.0, 0.0}},
+      std::vector<Eigen::Vector3f>{{0, 0, 1}, {0, 0, -1}});
+  VoxelMap::QueryContext context;
+  std::array<Neighbor, 2> found;
+  const Eigen::Vector3d query(0.1, 0.1, 0.1);
+  const Eigen::Vector3f up = Eigen::Vector3f::UnitZ();
+  const auto count = [&](int rings, double max_distance) {
+    return map.nearest(query, {2, max_distance, Gate::kSurfaces, rings}, found.data(), context);
+  };
+  EXPECT_EQ(count(32, 100.0), 0U);
+  EXPECT_EQ(count(33, 100.0), 1U);  // voxel 33 of 0.3 m
+  EXPECT_EQ(count(33, 9.8), 0U);
+  EXPECT_EQ(count(std::numeric_limits<int>::max(), 1e9), 2U);
+  EXPECT_NEAR(found[1].sq_distance, 40000.1F * 40000.1F, 1e3);
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (const Eigen::Vector3f& normal : {up, Eigen::Vector3f(-up)}) {
+    ASSERT_EQ(
+        map.nearest(query, normal, {2, kInfinity, Gate::kSurfaces, 1 << 30}, found.data(), context),
+        1U);
+    EXPECT_EQ(map.normal(found[0].id), normal);
+  }
+  EXPECT_EQ(count(-5, 100.0), 0U);
+  EXPECT_EQ(
+      map.nearest({1e9, 0, 0}, {2, 1e12, Gate::kSurfaces, 1 << 30}, found.data(), context), 0U);
 }
 
 TEST(Nearest, KeepsTheSidesOfAThinWallApart) {

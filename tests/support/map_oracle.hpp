@@ -42,8 +42,8 @@ class MapOracle {
     }
   }
 
-  /// All points in the 27 voxels around `query` within `max_distance`, ascending; with a normal,
-  /// only those that may agree with it.
+  /// All points in the voxels around `query` within `max_distance`, ascending; with a normal, only
+  /// those that may agree with it.
   std::vector<Candidate> candidates(
       const Eigen::Vector3d& query,
       const Eigen::Vector3f* normal,
@@ -53,7 +53,8 @@ class MapOracle {
     for (const MapPoint& point : points_) {
       const Eigen::Array3i apart = (voxel_of(point.position) - voxel_of(query)).array().abs();
       const double sq_distance = (point.position - snapped).squaredNorm();
-      if (apart.maxCoeff() > 1 || sq_distance > search.max_distance * search.max_distance) {
+      if (apart.maxCoeff() > search.rings ||
+          sq_distance > search.max_distance * search.max_distance) {
         continue;
       }
       Candidate candidate{sq_distance, true};

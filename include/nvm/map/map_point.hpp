@@ -17,7 +17,7 @@ struct MapPoint {
   Eigen::Vector3f
       normal;  ///< unit length, looks at where the point was seen from; a sighting or zero: none
   int side;    ///< surface of its voxel: 0 front, 1 back
-  PointValues values;  ///< those that the map keeps (MapOptions::columns), zero the others
+  PointValues values = {};  ///< those that the map keeps (MapOptions::columns), zero the others
 };
 
 template <>

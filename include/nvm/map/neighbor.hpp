@@ -24,11 +24,13 @@ enum class Gate : std::uint8_t {
 struct NearestSearch {
   /// How many neighbours at most, 1 to kMaxNeighbors (larger values are clamped).
   std::size_t count = 5;
-  /// Neighbours lie at most this far away [m], inclusive. Voxel maps reach no farther than the 27
-  /// voxels around the query whatever is asked.
+  /// Neighbours lie at most this far away [m], inclusive, and in a voxel map within its `rings`.
   double max_distance = 1.0;
   /// Ignored by queries without a normal and by maps without normals.
   Gate gate = Gate::kSurfaces;
+  /// Of voxels around that of the query: 1 for the 27, n for (2 n + 1)^3. Answers that the 27 do
+  /// not settle take microseconds then, and a millisecond where a large map is far away.
+  int rings = 1;
 };
 
 /// One answer of a query: a stored point in the map frame.

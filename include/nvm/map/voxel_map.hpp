@@ -113,11 +113,12 @@ class VoxelMap {
 
   // --- queries: const, noexcept, no allocation
 
-  /// The nearest stored points in the 27 voxels around `point` (map frame, m) that agree with the
-  /// unit `normal` (spec §3.6): surfaces within max_surface_angle, points within max_point_angle.
-  /// Ascending by distance; of equally near points always the same one first. Writes to `out`,
-  /// which has room for search.count, and returns how many. Only a sighting finds sightings, and
-  /// normals too (sighting.hpp). Nothing is found for a bad point or a normal of another length.
+  /// The nearest stored points in the 27 voxels (search.rings) around `point` (map frame, m) that
+  /// agree with the unit `normal` (spec §3.6): surfaces within max_surface_angle, points within
+  /// max_point_angle. Ascending by distance; of equally near points always the same one first.
+  /// Writes to `out`, which has room for search.count, and returns how many. Only a sighting finds
+  /// sightings, and normals too (sighting.hpp). Nothing is found for a bad point or a normal of
+  /// another length.
   NVM_SHARED std::size_t nearest(
       const Eigen::Vector3d& point,
       const Eigen::Vector3f& normal,

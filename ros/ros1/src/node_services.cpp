@@ -58,9 +58,10 @@ std::string Node::save_to(const std::string& folder) {
     nvm::save_map(*map.voxel_map(), results.path() + "/map.nvm");
   }
   points = map.points();
+  const nvm::MapColumns columns = map.columns();
   trajectory = outputs_.trajectory();
   lock.unlock();
-  const nvm::io::MapCloud cloud = nvm::io::map_cloud_of(points, Eigen::Vector3d::Zero());
+  const nvm::io::MapCloud cloud = nvm::io::map_cloud_of(points, columns, Eigen::Vector3d::Zero());
   nvm::io::write_map_cloud(results.path() + "/map.ply", cloud);
   nvm::io::write_tum(results.path() + "/trajectory.tum", trajectory);
   results.publish();

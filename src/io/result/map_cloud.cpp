@@ -40,6 +40,41 @@ bool needs_double(const MapCloud& cloud) {
       });
 }
 
+void add_field(const std::string& name, float /*of*/, PointRecords& records) {
+  records.add_field(name, ScalarType::kFloat32);
+}
+void add_field(const std::string& name, double /*of*/, PointRecords& records) {
+  records.add_field(name, ScalarType::kFloat64);
+}
+void add_field(const std::string& name, std::uint16_t /*of*/, PointRecords& records) {
+  records.add_field(name, ScalarType::kUint16);
+}
+void add_field(const std::string& /*name*/, const Color& /*of*/, PointRecords& records) {
+  for (const char* part : {"red", "green", "blue"}) {  // as viewers know them
+    records.add_field(part, ScalarType::kUint8);
+  }
+}
+
+template <class Number>
+void append_value(Number value, std::string& bytes) {
+  append_bytes(value, bytes);
+}
+void append_value(const Color& color, std::string& bytes) {
+  for (const std::uint8_t part : {color.red, color.green, color.blue}) {
+    append_bytes(part, bytes);
+  }
+}
+
+/// Calls visit(name, &PointValues::value) for the columns that there are.
+template <class Visitor>
+void for_each_column(const MapCloud& cloud, const Visitor& visit) {
+  visit_columns([&](const OptionInfo& info, auto kept, auto value) {
+    if (cloud.columns.*kept && !cloud.values.empty()) {
+      visit(info.name, value);
+    }
+  });
+}
+
 template <class Scalar>
 void append_records(const MapCloud& cloud, std::string& bytes) {
   for (std::size_t i = 0; i < cloud.positions.size(); ++i) {
@@ -54,6 +89,9 @@ void append_records(const MapCloud& cloud, std::string& bytes) {
     if (!cloud.sides.empty()) {
       append_bytes(cloud.sides[i], bytes);
     }
+    for_each_column(cloud, [&](const char* /*name*/, auto value) {
+      append_value(cloud.values[i].*value, bytes);
+    });
   }
 }
 
@@ -71,6 +109,8 @@ PointRecords records_of(const MapCloud& cloud, const std::array<const char*, 3>&
   if (!cloud.sides.empty()) {
     records.add_field("side", ScalarType::kUint8);
   }
+  for_each_column(
+      cloud, [&](const char* name, auto value) { add_field(name, PointValues{}.*value, records); });
   records.size = cloud.positions.size();
   records.bytes.reserve(records.size * records.record_size);
   is_double ? append_records<double>(cloud, records.bytes)
@@ -80,11 +120,12 @@ PointRecords records_of(const MapCloud& cloud, const std::array<const char*, 3>&
 
 void check_lengths(const MapCloud& cloud) {
   const std::size_t size = cloud.positions.size();
-  if ((!cloud.normals.empty() && cloud.normals.size() != size) ||
-      (!cloud.sides.empty() && cloud.sides.size() != size)) {
+  const auto fits = [size](const auto& vector) { return vector.empty() || vector.size() == size; };
+  if (!fits(cloud.normals) || !fits(cloud.sides) || !fits(cloud.values)) {
     throw std::invalid_argument(
-        "map cloud: " + std::to_string(cloud.normals.size()) + " normals and " +
-        std::to_string(cloud.sides.size()) + " sides for " + std::to_string(size) + " positions");
+        "map cloud: " + std::to_string(cloud.normals.size()) + " normals, " +
+        std::to_string(cloud.sides.size()) + " sides and " + std::to_string(cloud.values.size()) +
+        " values for " + std::to_string(size) + " positions");
   }
 }
 

@@ -11,8 +11,13 @@
 
 namespace nvm::io {
 
-/// The points of a map whose origin is at `origin` [m], as the writers of nvm::io take them.
-MapCloud map_cloud_of(const std::vector<MapPoint>& points, const Eigen::Vector3d& origin);
+/// The points of a map that has these columns and whose origin is at `origin` [m], as the writers
+/// of nvm::io take them.
+MapCloud map_cloud_of(
+    const std::vector<MapPoint>& points, const MapColumns& columns, const Eigen::Vector3d& origin);
+
+/// Those of `map` that are known to lie on a surface.
+MapCloud map_cloud_of(const VoxelMap& map, const Eigen::Vector3d& origin);
 
 /// Writes `stem`.ply and, for a voxel map, `stem`.nvm, which counts from `origin` [m]. Throws
 /// std::runtime_error.

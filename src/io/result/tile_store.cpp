@@ -90,7 +90,7 @@ MapCloud read_tile_store(const std::string& folder) {
       fail(path, "is not the file that index.json tells of: build the store again");
     }
   }
-  return map_cloud_of(without_sightings(std::move(points)), Eigen::Vector3d::Zero());
+  return map_cloud_of(without_sightings(std::move(points)), {}, Eigen::Vector3d::Zero());
 }
 
 }  // namespace nvm::io

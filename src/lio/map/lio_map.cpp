@@ -11,6 +11,7 @@
 #include "nvm/map/kd_tree_map.hpp"
 #define NVM_HAS_KD_TREE_MAP
 #endif
+#include "nvm/core/require.hpp"
 #include "nvm/map/sighting.hpp"
 
 namespace nvm::lio {
@@ -18,16 +19,29 @@ namespace nvm::lio {
 namespace {
 
 using Points = std::vector<Eigen::Vector3f>;
+using Values = std::vector<PointValues>;
 
-/// The points that have one, or a sighting, for maps that do not ask for normals.
-const Points& with_normal(const Points& points, const Points& normals, Points& kept) {
-  kept.clear();
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!normals[i].isZero()) {
-      kept.push_back(points[i]);
+/// The points that have a normal or a sighting, for maps that do not ask for them. Keeps its
+/// memory.
+struct PointsOnSurfaces {
+  Points points;
+  Values values;
+
+  void choose(const Points& from, const Points& normals, const Values& theirs) {
+    points.clear();
+    values.clear();
+    for (std::size_t i = 0; i < from.size(); ++i) {
+      if (!normals[i].isZero()) {
+        points.push_back(from[i]);
+        values.push_back(theirs[i]);
+      }
     }
   }
-  return kept;
+};
+
+void refuse_columns_without_source(const MapColumns& columns) {
+  require(!columns.color, "color", columns.color, "false: scans have no colours");
+  require(!columns.label, "label", columns.label, "false: scans have no classes");
 }
 
 /// All kinds that live in a VoxelMap; they differ in what they store and how they answer.
@@ -36,8 +50,12 @@ class VoxelLioMap : public LioMap {
   explicit VoxelLioMap(const MapOptions& options) : map_(options) {}
   explicit VoxelLioMap(VoxelMap map) : map_(std::move(map)) {}
 
-  InsertStats insert(const Points& points, const Points& normals, const Pose& T_map_scan) override {
-    return bounded(map_.insert(points, normals, T_map_scan), T_map_scan);
+  InsertStats insert(
+      const Points& points,
+      const Points& normals,
+      const Values& values,
+      const Pose& T_map_scan) override {
+    return bounded(map_.insert(points, normals, T_map_scan, values), T_map_scan);
   }
 
   std::size_t nearest(
@@ -72,7 +90,9 @@ class FrozenLioMap final : public VoxelLioMap {
  public:
   using VoxelLioMap::VoxelLioMap;
 
-  InsertStats insert(const Points&, const Points&, const Pose&) override { return {}; }
+  InsertStats insert(const Points&, const Points&, const Values&, const Pose&) override {
+    return {};
+  }
   bool is_frozen() const override { return true; }
 };
 
@@ -85,9 +105,14 @@ class UnsidedLioMap final : public VoxelLioMap {
  public:
   explicit UnsidedLioMap(const MapOptions& options) : VoxelLioMap(one_surface(options)) {}
 
-  InsertStats insert(const Points& points, const Points& normals, const Pose& T_map_scan) override {
-    InsertStats stats = map_.insert_unsided(with_normal(points, normals, kept_), T_map_scan);
-    stats.no_normal = points.size() - kept_.size();
+  InsertStats insert(
+      const Points& points,
+      const Points& normals,
+      const Values& values,
+      const Pose& T_map_scan) override {
+    kept_.choose(points, normals, values);
+    InsertStats stats = map_.insert_unsided(kept_.points, T_map_scan, kept_.values);
+    stats.no_normal = points.size() - kept_.points.size();
     return bounded(stats, T_map_scan);
   }
 
@@ -101,7 +126,7 @@ class UnsidedLioMap final : public VoxelLioMap {
   }
 
  private:
-  Points kept_;
+  PointsOnSurfaces kept_;
 };
 
 class FacingLioMap final : public VoxelLioMap {
@@ -151,9 +176,14 @@ class KdTreeLioMap final : public LioMap {
   explicit KdTreeLioMap(const MapOptions& options)
       : min_point_distance_(options.min_point_distance), map_(min_point_distance_) {}
 
-  InsertStats insert(const Points& points, const Points& normals, const Pose& T_map_scan) override {
-    InsertStats stats = map_->insert_unsided(with_normal(points, normals, kept_), T_map_scan);
-    stats.no_normal = points.size() - kept_.size();
+  InsertStats insert(
+      const Points& points,
+      const Points& normals,
+      const Values& values,
+      const Pose& T_map_scan) override {
+    kept_.choose(points, normals, values);
+    InsertStats stats = map_->insert_unsided(kept_.points, T_map_scan);
+    stats.no_normal = points.size() - kept_.points.size();
     return stats;
   }
 
@@ -186,13 +216,14 @@ class KdTreeLioMap final : public LioMap {
  private:
   double min_point_distance_;  // [m]
   std::optional<KdTreeMap> map_;
-  Points kept_;
+  PointsOnSurfaces kept_;
 };
 #endif
 
 }  // namespace
 
 std::unique_ptr<LioMap> make_map(MapType type, const MapOptions& options) {
+  refuse_columns_without_source(options.columns);
   switch (type) {
     case MapType::kNvm:
       return std::make_unique<VoxelLioMap>(options);

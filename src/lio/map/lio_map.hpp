@@ -22,12 +22,13 @@ class LioMap {
 
   virtual ~LioMap() = default;
 
-  /// Adds a scan: points [m] and unit normals or sightings (nvm/map/sighting.hpp) of equal number
-  /// in the scan frame (Eq. 3). Points with neither (zero) are not stored, by any kind of map: they
-  /// lie on no surface.
+  /// Adds a scan: points [m] and unit normals or sightings (nvm/map/sighting.hpp), in the scan
+  /// frame (Eq. 3), and what they carry beside, all of equal number. Points with neither (zero) are
+  /// not stored, by any kind of map: they lie on no surface.
   virtual InsertStats insert(
       const std::vector<Eigen::Vector3f>& points,
       const std::vector<Eigen::Vector3f>& normals,
+      const std::vector<PointValues>& values,
       const Pose& T_map_scan) = 0;
 
   /// See map_concept.hpp.
@@ -47,6 +48,11 @@ class LioMap {
   /// The voxel map inside, null for a map of another kind.
   virtual const VoxelMap* voxel_map() const { return nullptr; }
 
+  /// Which values points() have.
+  MapColumns columns() const {
+    return voxel_map() != nullptr ? voxel_map()->options().columns : MapColumns();
+  }
+
   /// Whether insert() leaves it as it is.
   virtual bool is_frozen() const { return false; }
 };
@@ -60,6 +66,7 @@ enum class MapType {
   kKdTree,  ///< k-d tree of points, no normals
 };
 
+/// Throws std::invalid_argument for bad options, and for columns that no scan fills.
 std::unique_ptr<LioMap> make_map(MapType type, const MapOptions& options);
 
 /// A two-sided map that others have begun, with its own options. Frozen, it stays as it is; else

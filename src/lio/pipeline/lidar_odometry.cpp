@@ -288,7 +288,7 @@ void LidarOdometry::insert(const Normals& normals, FrameResult& result) {
   if (map_->is_frozen()) {
     return;
   }
-  result.inserted = map_->insert(scan_.points, normals, result.T_map_lidar);
+  result.inserted = map_->insert(scan_.points, normals, scan_.values, result.T_map_lidar);
   search_->insert(scan_.points, normals, result.T_map_lidar);
 }
 

@@ -48,6 +48,7 @@ PipelineOptions::PipelineOptions() {
   map.min_point_distance = 0.07;
   map.points_per_surface = 30;
   map.max_merged_points = 8;
+  map.columns.intensity = true;
   inertial.imu_noise.gyro = 0.0;  // to be learned
   inertial.imu_noise.accel = 0.0;
   inertial.normals.min_range = inertial.returns.min_range;

@@ -45,6 +45,7 @@ void DeskewedScan::clear() {
   points.clear();
   viewpoints.clear();
   ages.clear();
+  values.clear();
 }
 
 DeskewStats deskew(
@@ -88,6 +89,9 @@ DeskewStats deskew(
     out.points.emplace_back((motion.turned(p_body, s) + shift).cast<float>());
     out.viewpoints.emplace_back((motion.turned(lidar_body, s) + shift).cast<float>());
     out.ages.push_back(static_cast<float>(end.time - time));
+    PointValues& values = out.values.emplace_back();
+    values.intensity = point.intensity;
+    values.time = time;
   }
   return stats;
 }

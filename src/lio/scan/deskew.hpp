@@ -9,6 +9,7 @@
 #include "common/sensor_data.hpp"
 #include "lio/state/motion_segment.hpp"
 #include "lio/state/nav_state.hpp"
+#include "nvm/map/point_values.hpp"
 
 namespace nvm::lio {
 
@@ -18,6 +19,7 @@ struct DeskewedScan {
   std::vector<Eigen::Vector3f> points;      ///< [m], scan frame
   std::vector<Eigen::Vector3f> viewpoints;  ///< where the LiDAR was then [m], scan frame
   std::vector<float> ages;                  ///< scan end - time of the return [s]
+  std::vector<PointValues> values;          ///< its intensity and time
 
   std::size_t size() const { return points.size(); }
   void clear();

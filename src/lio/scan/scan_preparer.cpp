@@ -46,7 +46,7 @@ InsertStats ScanPreparer::insert(
       prepared.scan.points,
       prepared.normals,
       executor_);
-  return map.insert(prepared.scan.points, prepared.normals, T_map_lidar);
+  return map.insert(prepared.scan.points, prepared.normals, prepared.scan.values, T_map_lidar);
 }
 
 }  // namespace nvm::lio

@@ -22,6 +22,7 @@
 #include "nvm/map/operations/normal_gate.hpp"
 #include "nvm/map/operations/point_block.hpp"
 #include "nvm/map/operations/traversal.hpp"
+#include "nvm/map/operations/wider_rings.hpp"
 #include "nvm/map/point_values.hpp"
 #include "nvm/map/sighting.hpp"
 #include "nvm/map/storage/lattice.hpp"
@@ -148,6 +149,14 @@ class MapEngine {
  private:
   template <class Gate>
   std::size_t nearest_through(const Gate& gate, const NearestRequest& request) const noexcept {
+    const std::size_t count = nearest_around(gate, request);
+    return request.search.rings > 1
+               ? WiderRings<Gate>(storage_, lattice_, gate, request).search(count)
+               : count;
+  }
+
+  template <class Gate>
+  std::size_t nearest_around(const Gate& gate, const NearestRequest& request) const noexcept {
 #ifdef NVM_CHOOSES_KERNELS
     if (has_avx2()) {
       return for_avx2_kernels::detail::gated_nearest(storage_, lattice_, gate, request);
