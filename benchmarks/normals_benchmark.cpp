@@ -240,7 +240,6 @@ void scans(benchmark::internal::Benchmark* benchmark) {
 
 BENCHMARK_CAPTURE(estimate, fixed_block_tree, fixed_radius(), NormalMethod::kBlockTree)
     ->Apply(scans);
-BENCHMARK_CAPTURE(estimate, fixed_kd_tree, fixed_radius(), NormalMethod::kKdTree)->Apply(scans);
 BENCHMARK_CAPTURE(nanoflann_baseline, fixed, fixed_radius())->Apply(scans);
 #ifdef NVM_BENCHMARK_PCL
 BENCHMARK(pcl_baseline)->Apply(scans);
@@ -249,8 +248,6 @@ BENCHMARK(pcl_baseline)->Apply(scans);
 BENCHMARK(small_gicp_baseline)->Apply(scans);
 #endif
 BENCHMARK_CAPTURE(estimate, adaptive_block_tree, adaptive_radius(), NormalMethod::kBlockTree)
-    ->Apply(scans);
-BENCHMARK_CAPTURE(estimate, adaptive_kd_tree, adaptive_radius(), NormalMethod::kKdTree)
     ->Apply(scans);
 BENCHMARK_CAPTURE(nanoflann_baseline, adaptive, adaptive_radius())->Apply(scans);
 BENCHMARK_CAPTURE(estimate, per_cell, NormalOptions(), NormalMethod::kPerCell)->Apply(scans);

@@ -133,9 +133,7 @@ TEST_P(PlaneProjection, SightsWhatIsThinlyCovered) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Methods,
-    PlaneProjection,
-    ::testing::Values(NormalMethod::kBlockTree, NormalMethod::kKdTree, NormalMethod::kPerCell));
+    Methods, PlaneProjection, ::testing::Values(NormalMethod::kBlockTree, NormalMethod::kPerCell));
 
 }  // namespace
 }  // namespace nvm::lio

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
 
-// Both neighbourhood structures against brute force: the same neighbours, whatever the points.
+// Neighbourhoods against brute force: the same neighbours, whatever the points.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,6 @@
 #include "nvm/core/executor.hpp"
 #include "nvm/normal/block_search.hpp"
 #include "nvm/normal/block_tree.hpp"
-#include "nvm/normal/kd_tree_search.hpp"
 #include "nvm/normal/spatial_sorter.hpp"
 #include "support/rng.hpp"
 
@@ -159,8 +158,6 @@ TEST_P(Neighborhood, OfTheBlockTreeIsThatOfBruteForce) {
   tree.build(PointItems{sorted_}, SerialExecutor());
   expect_brute_force(BlockSearch(PointItems{sorted_}, tree));
 }
-
-TEST_P(Neighborhood, OfTheKdTreeIsThatOfBruteForce) { expect_brute_force(KdTreeSearch(sorted_)); }
 
 TEST_P(Neighborhood, StaysTheSameWhenTheTreeIsBuiltAgain) {
   BlockTree tree;

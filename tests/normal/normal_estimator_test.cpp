@@ -39,8 +39,6 @@ const auto method_name = [](const auto& instance) -> std::string {
   switch (instance.param) {
     case NormalMethod::kBlockTree:
       return "BlockTree";
-    case NormalMethod::kKdTree:
-      return "KdTree";
     case NormalMethod::kPerCell:
       return "PerCell";
   }
@@ -50,17 +48,14 @@ const auto method_name = [](const auto& instance) -> std::string {
 INSTANTIATE_TEST_SUITE_P(
     Methods,
     NormalEstimation,
-    ::testing::Values(NormalMethod::kBlockTree, NormalMethod::kKdTree, NormalMethod::kPerCell),
+    ::testing::Values(NormalMethod::kBlockTree, NormalMethod::kPerCell),
     method_name);
 
-// What only the exact methods promise.
+// What only the exact method promises.
 class ExactNormalEstimation : public NormalEstimation {};
 
 INSTANTIATE_TEST_SUITE_P(
-    Methods,
-    ExactNormalEstimation,
-    ::testing::Values(NormalMethod::kBlockTree, NormalMethod::kKdTree),
-    method_name);
+    Methods, ExactNormalEstimation, ::testing::Values(NormalMethod::kBlockTree), method_name);
 
 TEST_P(NormalEstimation, OfAWallLooksBackAtTheViewpoint) {
   for (const double range : {2.0, -2.0}) {

@@ -19,24 +19,6 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-TEST(NormalMethods, AgreeOnEveryStatusOfARoom) {
-  std::mt19937_64 rng = test::rng();
-  const test::TrueScan scan = room_scan(rng);
-  NormalOptions options;
-  const NormalResult blocks = estimate_normals(scan.points, Vector3d(0, 0, 0), options);
-  options.method = NormalMethod::kKdTree;
-  const NormalResult reference = estimate_normals(scan.points, Vector3d(0, 0, 0), options);
-  std::size_t differ = 0;  // where a threshold is met to the last bits
-  for (std::size_t i = 0; i < scan.points.size(); ++i) {
-    if (blocks.status[i] != reference.status[i]) {
-      ++differ;
-    } else {
-      EXPECT_LT((blocks.normals[i] - reference.normals[i]).norm(), 1e-3F);
-    }
-  }
-  EXPECT_LE(differ, 2U);
-}
-
 TEST(NormalsPerCell, AreSharedByThePointsOfACell) {
   std::mt19937_64 rng = test::rng();
   const test::TrueScan scan = room_scan(rng);

@@ -5,7 +5,6 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
-#include <stdexcept>
 #include <type_traits>
 #include <vector>
 
@@ -18,7 +17,6 @@
 #include "nvm/normal/block_search.hpp"
 #include "nvm/normal/block_tree.hpp"
 #include "nvm/normal/cell_grid.hpp"
-#include "nvm/normal/kd_tree_search.hpp"
 #include "nvm/normal/local_points.hpp"
 #include "nvm/normal/normal_kernels.hpp"
 #include "nvm/normal/normal_options.hpp"
@@ -30,9 +28,9 @@ inline namespace NVM_TARGET {
 
 /// Estimates the normals of LiDAR scans (spec §2).
 ///
-/// Keep one per sensor: its buffers are reused, so that with NormalMethod::kBlockTree nothing is
-/// allocated once they have grown to the size of the scans. An estimator serves one caller at a
-/// time; the executor spreads the work. The result is the same, bit for bit, for every executor.
+/// Keep one per sensor: its buffers are reused, so that nothing is allocated once they have grown
+/// to the size of the scans. An estimator serves one caller at a time; the executor spreads the
+/// work. The result is the same, bit for bit, for every executor.
 class NormalEstimator {
  public:
   /// Throws std::invalid_argument when the options are out of range.
@@ -106,7 +104,7 @@ class NormalEstimator {
     if (options_.method == NormalMethod::kPerCell) {
       grid_.build(cloud_, sorter_, 1.5 * options_.cell_size);
       tree_.build(detail::CellItems{grid_.means(), grid_.cells()}, executor);
-    } else if (options_.method == NormalMethod::kBlockTree) {
+    } else {
       tree_.build(detail::PointItems{cloud_}, executor);
     }
   }
@@ -190,22 +188,13 @@ class NormalEstimator {
   template <class Executor>
   void solve_once(
       const detail::SortedPoints& queries, NormalResult& result, const Executor& executor) {
-    switch (options_.method) {
-      case NormalMethod::kBlockTree:
-        return solve_among_points(queries, result, executor);
-      case NormalMethod::kKdTree:
-#if __has_include(<nanoflann.hpp>)
-        return run(
-            detail::PlaneSolver<detail::KdTreeSearch>(options_, queries, result, cloud_), executor);
-#else
-        throw std::invalid_argument("nvm: method kKdTree needs nanoflann, which was not found");
-#endif
-      case NormalMethod::kPerCell:
-        return run(
-            detail::PlaneSolver<detail::BlockSearch<detail::CellItems>>(
-                options_, queries, result, detail::CellItems{grid_.means(), grid_.cells()}, tree_),
-            executor);
+    if (options_.method == NormalMethod::kBlockTree) {
+      return solve_among_points(queries, result, executor);
     }
+    using Items = detail::CellItems;
+    const Items cells{grid_.means(), grid_.cells()};
+    run(detail::PlaneSolver<detail::BlockSearch<Items>>(options_, queries, result, cells, tree_),
+        executor);
   }
 
   template <class Executor>

@@ -10,7 +10,6 @@ namespace nvm {
 /// How neighbourhoods are found.
 enum class NormalMethod {
   kBlockTree,  ///< exact: a tree over the sorted scan, searched for several points at once
-  kKdTree,     ///< exact, the same neighbourhoods through nanoflann: the reference (spec §2.2)
   kPerCell,    ///< the fast mode: cells of cell_size are summed up and share one normal
 };
 

@@ -57,6 +57,14 @@ void bind_map(Schema& schema, PipelineOptions& options) {
 }
 
 void bind_normals(Schema& schema, NormalOptions& normals) {
+  schema.add_choice<NormalMethod>(
+      "method",
+      normals.method,
+      {{"block_tree", NormalMethod::kBlockTree}, {"per_cell", NormalMethod::kPerCell}},
+      "Each point's own neighbourhood, or one for all points of a cell: several times as fast, and "
+      "coarser");
+  schema.add(
+      "cell_size", normals.cell_size, {0.001, 1000.0}, "With method: per_cell, edge of a cell [m]");
   schema.add(
       "min_radius",
       normals.min_radius,
