@@ -116,6 +116,8 @@ def test_bad_input_is_refused(sessions, alone, tmp_path):
         Session(sessions[1].scans, sessions[0].poses)
     with pytest.raises(ValueError, match="smaller tile_size"):
         build(sessions, tmp_path / "full", map_options={**OPTIONS, "capacity": 10})
+    with pytest.raises(ValueError, match="carry points and no intensity"):
+        build(sessions, tmp_path / "bright", map_options={**OPTIONS, "intensity": True})
     with pytest.raises(ValueError, match="voxels of"):
         build(sessions, tmp_path / "small", tile_size=0.5, map_options=OPTIONS)
     with pytest.raises(RuntimeError, match="no store"):

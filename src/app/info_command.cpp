@@ -38,6 +38,11 @@ void print_info(const std::string& path) {
   fmt::print("surfaces          {}\n", stats.surfaces);
   fmt::print("voxel size        {} m\n", options.voxel_size);
   fmt::print("point distance    {} m\n", options.min_point_distance);
+  visit_columns([&](const OptionInfo& info, auto kept, auto /*value*/) {
+    if (options.columns.*kept) {
+      fmt::print("column            {}\n", info.name);
+    }
+  });
   fmt::print(
       "memory            {:.1f} MB\n", static_cast<double>(stats.memory_bytes) / kBytesPerMegabyte);
   if (!bounds.isEmpty()) {

@@ -37,8 +37,11 @@ MapOptions take_options(Input& input) {
   options.surface_rule = pick(nvm::SurfaceRule::kPaper, nvm::SurfaceRule::kSmallestAngle);
   options.max_surface_angle = pick(0.5 * kPi, 0.0, 0.5, kPi);
   options.max_point_angle = pick(0.55 * kPi, 0.0, 0.5, kPi);
+  options.columns.label = options.space_across_voxels;  // takes no input: the corpus stays good
   return options;
 }
+
+constexpr std::uint16_t kLabel = 7;  // of all points that come with one
 
 /// Does to a map what an input says, and checks it.
 class Player {
@@ -59,6 +62,7 @@ class Player {
       } else {
         step(kind);
         nvm::fuzz::audit(map_);
+        check_labels();
       }
     }
     auto bytes = MapArchive::write(map_);
@@ -94,12 +98,23 @@ class Player {
     }
   }
 
+  void check_labels() const {
+    map_.for_each_point([&](const nvm::MapPoint& point) {
+      const bool is_given = map_.options().columns.label && point.values.label == kLabel;
+      require(is_given || point.values.label == 0, "values are those that were given");
+    });
+  }
+
   void insert(bool unsided) {
     const nvm::test::Cloud cloud = nvm::fuzz::take_cloud(input_, edge());
     const Places before = nvm::fuzz::places(map_);
     const std::size_t voxels = map_.voxel_count();
+    nvm::PointValues of_all;
+    of_all.label = kLabel;
+    const std::vector<nvm::PointValues> values(cloud.points.size(), of_all);
     const InsertStats stats =
-        unsided ? map_.insert_unsided(cloud.points) : map_.insert(cloud.points, cloud.normals);
+        unsided ? map_.insert_unsided(cloud.points)
+                : map_.insert(cloud.points, cloud.normals, nvm::Pose::Identity(), values);
     has_unsided_ = has_unsided_ || unsided;
     nvm::fuzz::check_insertion(map_, cloud, stats, before, voxels);
   }
@@ -109,6 +124,7 @@ class Player {
     nvm::NearestSearch search;
     search.count = static_cast<std::size_t>(input_.below(70)) + 1;
     search.max_distance = std::abs(nvm::fuzz::take_number(input_, edge()));
+    search.rings = 1 + static_cast<int>(search.count) % 3;
     search.gate = input_.below(2) == 0 ? nvm::Gate::kSurfaces : nvm::Gate::kPoints;
     std::mt19937_64 random(input_.take<std::uint16_t>());
     const Eigen::Vector3f normal = nvm::test::random_unit(random);

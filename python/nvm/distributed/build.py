@@ -84,6 +84,9 @@ def build(
 
 def _plan(store: str, tile_size: float, map_options: dict, normal_options: dict) -> Plan:
     options = VoxelMap(**map_options).options
+    for column in ("intensity", "time", "color", "label"):
+        if options[column]:
+            raise ValueError(f"nvm: {column}=True: the scans of a store carry points and no {column}")
     if not (math.isfinite(tile_size) and tile_size > 0.0):
         raise ValueError(f"tile_size must be positive [m], not {tile_size}")
     voxels = math.ceil(tile_size / options["voxel_size"] - 1e-9)

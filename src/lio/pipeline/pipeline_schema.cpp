@@ -61,10 +61,13 @@ void bind_normals(Schema& schema, NormalOptions& normals) {
       "method",
       normals.method,
       {{"block_tree", NormalMethod::kBlockTree}, {"per_cell", NormalMethod::kPerCell}},
-      "Each point's own neighbourhood, or one for all points of a cell: several times as fast, and "
-      "coarser");
+      "Whether each point has a neighbourhood of its own, or those of a cell share one, which is "
+      "several times as fast and coarser");
   schema.add(
-      "cell_size", normals.cell_size, {0.001, 1000.0}, "With method: per_cell, edge of a cell [m]");
+      "cell_size",
+      normals.cell_size,
+      {0.001, 1000.0},
+      "Edge of a cell, where method is per_cell [m]");
   schema.add(
       "min_radius",
       normals.min_radius,
