@@ -192,5 +192,25 @@ TEST(ColumnsOfAMap, AreNoneInVersion3) {
   EXPECT_EQ(MapArchive::read(MapArchive::write(map)).size(), map.size());
 }
 
+// version_4.map was written by the first nvm that wrote version 4: points numbered from 0 on, as
+// they were inserted.
+TEST(ColumnsOfAMap, AreReadFromVersion4) {
+  std::ifstream file(NVM_SOURCE_DIR "/tests/map/golden/version_4.map", std::ios::binary);
+  const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(file), {}};
+  const VoxelMap map = MapArchive::read(bytes);
+  EXPECT_EQ(map.size(), 27U);
+  map.for_each_point([](const MapPoint& point) {
+    const int number = point.values.label - 1000;
+    EXPECT_NEAR(point.position.x(), 0.5 * (number / 12) + 0.04 * (number % 6) + 0.02, 1e-4);
+    EXPECT_NEAR(point.position.y(), 0.1 * (number % 12 / 6) + 0.05, 1e-4);
+    EXPECT_EQ(point.values.intensity, 0.5F * static_cast<float>(number));
+    EXPECT_NEAR(point.values.time, 1e9 + 0.001 * number, 1e-6);
+    EXPECT_EQ(point.values.color.red, number);
+    EXPECT_EQ(point.values.color.green, 200);
+    EXPECT_EQ(point.values.color.blue, 255);
+  });
+  EXPECT_EQ(MapArchive::write(map), bytes);
+}
+
 }  // namespace
 }  // namespace nvm
