@@ -33,8 +33,11 @@ TEST_P(NearestOracle, AgreesWithBruteForce) {
   options.surface_rule = GetParam().rule;
   options.min_point_distance = 0.03;
   options.capacity = 20000;
-  for (const Cloud& cloud : test::all_clouds(rng)) {
+  for (Cloud& cloud : test::all_clouds(rng)) {
     SCOPED_TRACE(cloud.name);
+    for (std::size_t i = 0; i < cloud.normals.size(); i += 4) {
+      cloud.normals[i] *= 0.5F;  // a sighting
+    }
     VoxelMap map(options);
     map.insert(cloud.points, cloud.normals);
     const MapOracle oracle(map);
