@@ -58,6 +58,9 @@ struct HostOptions {
   /// member.
   void validate() const {
     map.validate();
+    visit_columns([this](const OptionInfo& info, auto kept, auto /*value*/) {
+      require(!(map.columns.*kept), info.name, true, "false: an adapter hands no values over");
+    });
     require(reach >= 0.0, "reach", reach, "0 or more [m]");
     require(
         surface_neighbors == 0 || (surface_neighbors >= 3 && surface_neighbors <= kMaxNeighbors),

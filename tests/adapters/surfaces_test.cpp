@@ -102,6 +102,9 @@ TEST(HostMap, RefusesOptionsThatAreOutOfRange) {
   HostOptions options;
   options.reach = -1.0;
   EXPECT_THROW(HostMap{options}, std::invalid_argument);
+  HostOptions with_column;
+  with_column.map.columns.intensity = true;
+  EXPECT_THROW(HostMap{with_column}, std::invalid_argument);
 }
 
 }  // namespace
