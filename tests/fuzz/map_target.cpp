@@ -166,7 +166,7 @@ class Player {
     std::size_t fewest = 0;
     std::size_t most = 0;
     map_.for_each_point([&](const nvm::MapPoint& point) {
-      const double excess = (point.position - center).norm() - radius;
+      const double excess = (point.position - center).stableNorm() - radius;
       fewest += excess < -rounding && radius >= 0.0 ? 1 : 0;
       most += excess < rounding && radius >= 0.0 ? 1 : 0;
     });
@@ -212,10 +212,11 @@ class Player {
     }
     const auto excess = [&](const Eigen::Vector3d& p) {
       const Eigen::Vector3d middle = ((p / edge()).array().floor() + 0.5) * edge();
-      const double beyond = (middle - center).norm() - radius;
+      const double beyond = (middle - center).stableNorm() - radius;
       return std::isfinite(beyond) ? -beyond : 0.0;  // else either may be
     };
-    nvm::fuzz::check_erasure(map_, before, erased, excess, 1e-9 * (1.0 + center.norm() + radius));
+    nvm::fuzz::check_erasure(
+        map_, before, erased, excess, 1e-9 * (1.0 + center.stableNorm() + radius));
   }
 
   void move() {

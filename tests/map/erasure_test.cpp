@@ -116,6 +116,27 @@ TEST(RadiusQuery, FindsWhatBruteForceFinds) {
 }
 
 // Brick indices that far away do not fit into 32 bits: converting them gave an endless loop.
+// The squares of such lengths are too large for a double, and equal.
+TEST(Erase, TellsLengthsApartWhoseSquaresOverflow) {
+  const Eigen::Vector3d beyond(0.0, 1e300, 1e300);
+  const Eigen::Vector3d corner(0.0, 1e300, 0.0);
+  VoxelMap map;
+  map.insert_unsided(std::vector<Eigen::Vector3d>{{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}});
+  const auto count = [&](const Eigen::Vector3d& center, double radius) {
+    int visits = 0;
+    map.for_each_within(center, radius, [&](const Neighbor&) { ++visits; });
+    return visits;
+  };
+  EXPECT_EQ(count(beyond, 1.41e300), 0);
+  EXPECT_EQ(count(beyond, 1.42e300), 2);
+  EXPECT_EQ(count(corner, 1e300), 2);
+  EXPECT_EQ(count(corner, std::numeric_limits<double>::infinity()), 2);
+  EXPECT_EQ(map.erase_within(beyond, 1.41e300), 0U);
+  EXPECT_EQ(map.erase_voxels_beyond(beyond, 1.42e300), 0U);
+  EXPECT_EQ(map.erase_voxels_beyond(beyond, 1.41e300), 2U);
+  EXPECT_TRUE(map.empty());
+}
+
 TEST(Erase, FarAwayFindsNothing) {
   std::mt19937_64 rng = test::rng();
   const test::Cloud cloud = test::uniform_cloud(2000, 12.0, Eigen::Vector3d::Zero(), rng);

@@ -42,9 +42,7 @@ struct BallRegion {
   Eigen::Vector3d center;
   double radius;
 
-  bool contains(const Eigen::Vector3d& point) const {
-    return (point - center).squaredNorm() <= radius * radius;
-  }
+  bool contains(const Eigen::Vector3d& point) const { return is_within(point - center, radius); }
   bool may_touch(const Lattice& lattice, const VoxelIndex& voxel) const {
     return sq_distance_to_voxels(lattice, center, voxel, voxel) <= radius * radius * (1.0 + 1e-9);
   }
@@ -144,7 +142,7 @@ inline void erase_voxels_beyond(
   const Eigen::Vector3i middle = Eigen::Vector3i::Constant(kStepsPerVoxel / 2);
   for (std::uint32_t brick = 0; brick < storage.brick_high_water(); ++brick) {
     storage.visit_brick(brick, [&](std::uint32_t front, const VoxelIndex& index) {
-      if ((lattice.position(index, middle) - center).squaredNorm() > radius * radius) {
+      if (!is_within(lattice.position(index, middle) - center, radius)) {
         storage.erase_voxel(storage.chunk(front).voxel);
       }
     });

@@ -148,6 +148,14 @@ inline double sq_distance_to_voxels(
   return below.max(above).max(0.0).square().sum();
 }
 
+/// Whether `offset` [m] is at most `radius` long, also where the squares of both are too large for
+/// a double.
+inline bool is_within(const Eigen::Vector3d& offset, double radius) {
+  constexpr double kLargestSquared = 1e150;
+  return radius < kLargestSquared ? offset.squaredNorm() <= radius * radius
+                                  : offset.stableNorm() <= radius;
+}
+
 template <class Visitor>
 void for_each_within(
     const VoxelStorage& storage,
@@ -166,10 +174,10 @@ void for_each_within(
     for (std::uint32_t head = front; head != kNone; head = storage.chunk(head).next_surface) {
       for_each_id(storage, head, [&](PointId id) {
         const Eigen::Vector3d position = lattice.position(index, stored_step(storage, id));
-        const double sq_distance = (position - center).squaredNorm();
-        if (sq_distance <= sq_radius) {
+        const Eigen::Vector3d offset = position - center;
+        if (is_within(offset, radius)) {
           storage.recency().use(storage.chunk(head).voxel);
-          visit(Neighbor{position, static_cast<float>(sq_distance), id});
+          visit(Neighbor{position, static_cast<float>(offset.squaredNorm()), id});
         }
       });
     }
