@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "adapters/common/host_map.hpp"
+#include "nvm/map/operations/wider_rings.hpp"
 
 /// Names and signatures are those of faster-lio, in its own namespace: this header takes the place
 /// of ivox3d/ivox3d.h. docs/adapters/ivox.md says what to change in a host.
@@ -124,8 +125,8 @@ class IVox {
   }
 
   std::size_t search_nearby(
-      const PointType& point, const nvm::NearestSearch& search, nvm::Neighbor* out) const {
-    if (map_.map() == nullptr) {
+      const PointType& point, const nvm::NearestSearch& search, nvm::Neighbor* out) const noexcept {
+    if (map_.map() == nullptr || search.count == 0) {
       return 0;
     }
     const double size = map_.options().map.voxel_size;
@@ -136,23 +137,17 @@ class IVox {
     const Eigen::Array3d center = cell(query);
     const auto steps = static_cast<double>(options_.nearby_type_);  // along the axes, to a voxel
     const double reach = std::min(search.max_distance, 2.0 * std::sqrt(3.0) * size);
-    std::vector<nvm::Neighbor> nearby;
+    nvm::detail::NearestList nearest(out, std::min(search.count, nvm::kMaxNeighbors));
     map_.map()->for_each_within(query, reach, [&](const nvm::Neighbor& n) {
       const Eigen::Array3d apart = (cell(n.position) - center).abs();
       if (apart.maxCoeff() <= 1.0 && apart.sum() <= steps) {
-        nearby.push_back(n);
+        nearest.show(n);
       }
     });
-    const std::size_t count = std::min({search.count, nearby.size(), nvm::kMaxNeighbors});
-    const auto end = nearby.begin() + static_cast<std::ptrdiff_t>(count);
-    std::partial_sort(nearby.begin(), end, nearby.end(), [](const auto& a, const auto& b) {
-      return a.sq_distance != b.sq_distance ? a.sq_distance < b.sq_distance : a.id < b.id;
-    });
-    std::transform(nearby.begin(), end, out, [this](nvm::Neighbor n) {
+    std::for_each(out, out + nearest.count(), [this](nvm::Neighbor& n) {
       n.position = map_.from_grid(n.position);
-      return n;
     });
-    return count;
+    return nearest.count();
   }
 
   Options options_;

@@ -25,9 +25,8 @@ inline namespace NVM_TARGET {
 // voxels from the least to the most recently used, and the present epoch (see recency.hpp). A
 // voxel: its index, the epochs of the list that it stands in and of its last use, and its surfaces
 // with their points as stored and, in a map that merges points, how many each stands for; then the
-// values of its columns. Loading
-// gives back the same map bit by bit: the same answers, and the same map after whatever is done to
-// either.
+// values of its columns. Loading gives back the same map bit by bit: the same answers, and the same
+// map after whatever is done to either.
 //
 // Older versions that are still read: 3 had no columns; 2 had neither max_merged_points nor what it
 // counts nor the present epoch either, and counted the epochs without gaps.
