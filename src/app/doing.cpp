@@ -12,8 +12,6 @@ namespace nvm::app {
 
 namespace {
 
-constexpr double kBytesPerMegabyte = 1e6;
-
 /// The most that the process has had in memory [bytes].
 double peak_memory() {
 #ifdef __APPLE__

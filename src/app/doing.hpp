@@ -9,6 +9,9 @@
 
 namespace nvm::app {
 
+/// What sizes are printed in.
+constexpr double kBytesPerMegabyte = 1e6;
+
 /// "memory ran out while WHAT: ...", with how much the process has and may have.
 std::string out_of_memory(const std::string& what);
 

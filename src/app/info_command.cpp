@@ -18,8 +18,6 @@ namespace nvm::app {
 
 namespace {
 
-constexpr double kBytesPerMegabyte = 1e6;
-
 void print_info(const std::string& path) {
   const VoxelMap map = doing("loading " + path, [&] { return load_map(path); });
   const Eigen::Vector3d origin = io::read_origin(path);

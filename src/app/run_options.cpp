@@ -50,7 +50,6 @@ std::string name_of(const std::string& input, const io::SequenceInfo& info) {
 }
 
 std::string making_map(const MapOptions& options) {
-  constexpr double kBytesPerMegabyte = 1e6;
   return fmt::format(
       "making a map of map.capacity={} voxels, for which it needs {:.0f} MB",
       options.capacity,

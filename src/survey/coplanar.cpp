@@ -12,7 +12,7 @@ namespace nvm::survey {
 
 namespace {
 
-constexpr double kMinCosine = 0.99;  // 8 degrees: small regions know their direction badly
+constexpr double kMinRegionCosine = 0.99;  // 8 degrees: small regions know their direction badly
 
 /// A region with what the comparisons need.
 struct Candidate {
@@ -53,7 +53,8 @@ struct Outlook {
   Eigen::Vector3d mean;
 
   bool may_lie_on(const eval::OrientedPlane& plane, double max_offset) const {
-    return plane.normal.dot(normal) >= kMinCosine && std::abs(plane.distance(mean)) <= max_offset;
+    return plane.normal.dot(normal) >= kMinRegionCosine &&
+           std::abs(plane.distance(mean)) <= max_offset;
   }
 };
 

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "common/median.hpp"
 
 namespace nvm::survey {
 
@@ -35,9 +38,7 @@ double gate_of(
   for (std::size_t i = 0; i < points.size(); i += step) {
     distances.push_back(std::abs(plane.distance(cloud.positions[points[i]])));
   }
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return std::max(kMinGate, 4.0 * kDeviationPerMedian * *middle);
+  return std::max(kMinGate, 4.0 * kDeviationPerMedian * median(std::move(distances)));
 }
 
 /// Fits the plane of `face` to those of `all` that lie on it.

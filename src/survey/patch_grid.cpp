@@ -8,6 +8,8 @@
 #include <string>
 #include <utility>
 
+#include "common/median.hpp"
+
 namespace nvm::survey {
 
 namespace {
@@ -37,9 +39,7 @@ Eigen::Vector3d middle_of(const std::vector<Eigen::Vector3d>& positions) {
       }
     }
     if (!values.empty()) {
-      const auto center = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-      std::nth_element(values.begin(), center, values.end());
-      middle[axis] = std::round(*center);
+      middle[axis] = std::round(median(std::move(values)));
     }
   }
   return middle;
@@ -209,12 +209,7 @@ double PatchGrid::noise() const {
       }
     }
   }
-  if (spreads.empty()) {
-    return 0.0;
-  }
-  const auto center = spreads.begin() + static_cast<std::ptrdiff_t>(spreads.size() / 2);
-  std::nth_element(spreads.begin(), center, spreads.end());
-  return *center;
+  return spreads.empty() ? 0.0 : median(std::move(spreads));
 }
 
 }  // namespace nvm::survey

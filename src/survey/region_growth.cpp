@@ -12,7 +12,7 @@ namespace nvm::survey {
 
 namespace {
 
-constexpr double kMinCosine = 0.87;  // 30 degrees, of a patch to the plane
+constexpr double kMinPatchCosine = 0.87;  // 30 degrees, of a patch to the plane
 constexpr std::uint32_t kFree = std::numeric_limits<std::uint32_t>::max();
 
 class Grower {
@@ -50,7 +50,7 @@ class Grower {
   static constexpr std::size_t kMinPatches = 5;
 
   bool fits(const Patch& patch, const eval::OrientedPlane& plane, double gate) const {
-    return patch.normal.dot(plane.normal) > kMinCosine &&
+    return patch.normal.dot(plane.normal) > kMinPatchCosine &&
            std::abs(plane.distance(patch.mean)) < gate;
   }
 

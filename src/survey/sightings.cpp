@@ -10,7 +10,7 @@ namespace nvm::survey {
 namespace {
 
 constexpr double kMinPoints = 8.0;
-constexpr double kMinCosine = 0.85;  // 30 degrees, of a point's normal to the face's
+constexpr double kMinNormalCosine = 0.85;  // 30 degrees, of a point's normal to the face's
 
 /// What a keyframe shows, in the frame of the faces.
 struct View {
@@ -73,7 +73,7 @@ std::optional<Sighting> sighting_of(const View& view, const Side& side) {
   for (std::size_t i = 0; i < view.points.size(); ++i) {
     const Eigen::Vector3d& p = view.points[i];
     const double distance = plane.distance(p);
-    if (std::abs(distance) < side.gate && plane.normal.dot(view.normals[i]) > kMinCosine &&
+    if (std::abs(distance) < side.gate && plane.normal.dot(view.normals[i]) > kMinNormalCosine &&
         side.overlap->covers(side.frame->coordinate_u(p), side.frame->coordinate_v(p))) {
       count += 1.0;
       sum += distance;

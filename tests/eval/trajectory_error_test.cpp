@@ -175,7 +175,7 @@ TEST(ErrorStatistics, OfKnownNumbers) {
   EXPECT_DOUBLE_EQ(odd->max, 3.0);
   EXPECT_DOUBLE_EQ(odd->rmse, std::sqrt(14.0 / 3.0));
   EXPECT_DOUBLE_EQ(summarize({4.0, 1.0, 2.0, 10.0})->median, 3.0);
-  EXPECT_FALSE(summarize({}).has_value());
+  EXPECT_FALSE(summarize(std::vector<double>{}).has_value());
 }
 
 TEST(RelativeError, IgnoresWhereTheMapFrameIs) {

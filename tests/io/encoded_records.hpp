@@ -8,6 +8,7 @@
 #include <cstring>
 #include <random>
 #include <string>
+#include <vector>
 
 #include "io/cloud/point_records.hpp"
 #include "io/lzf_compress.hpp"
@@ -25,6 +26,16 @@ inline constexpr io::ScalarType kAllTypes[] = {
     io::ScalarType::kUint64,
     io::ScalarType::kFloat32,
     io::ScalarType::kFloat64};
+
+/// The values of the field `name`; none without it.
+inline std::vector<double> column(const io::PointRecords& records, const char* name) {
+  std::vector<double> values;
+  if (const io::Field* field = records.find({name})) {
+    io::for_each_value(
+        records, *field, [&](std::size_t, double value) { values.push_back(value); });
+  }
+  return values;
+}
 
 /// Random whole numbers in fields of all types, in random order, some with a count above 1.
 inline io::PointRecords random_records(std::mt19937_64& rng, bool only_ply_types) {

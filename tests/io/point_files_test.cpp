@@ -24,6 +24,7 @@
 namespace nvm::io {
 namespace {
 
+using test::column;
 using test::compressed_pcd;
 using test::random_records;
 using test::runtime_error_of;
@@ -31,15 +32,6 @@ using test::text_of;
 using ::testing::HasSubstr;
 
 class PointFiles : public test::TemporaryFolder {};
-
-std::vector<double> column(const PointRecords& records, const char* name) {
-  std::vector<double> values;
-  const Field* field = records.find({name});
-  if (field != nullptr) {
-    for_each_value(records, *field, [&](std::size_t, double value) { values.push_back(value); });
-  }
-  return values;
-}
 
 TEST_F(PointFiles, PcdOfAnyLayoutReadsBackInAllEncodings) {
   auto rng = test::rng();

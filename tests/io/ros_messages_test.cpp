@@ -10,12 +10,14 @@
 #include <vector>
 
 #include "io/damage.hpp"
+#include "io/encoded_records.hpp"
 #include "io/temporary_folder.hpp"
 #include "support/rng.hpp"
 
 namespace nvm::io {
 namespace {
 
+using test::column;
 using test::runtime_error_of;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -79,13 +81,6 @@ std::string serialised(const Cloud& cloud) {
   bytes += data;
   bytes += '\1';
   return bytes;
-}
-
-std::vector<double> column(const PointRecords& records, const char* name) {
-  std::vector<double> values;
-  for_each_value(
-      records, *records.find({name}), [&](std::size_t, double value) { values.push_back(value); });
-  return values;
 }
 
 TEST(RosMessages, PointCloud2WithPaddedRowsAndOddFields) {

@@ -23,7 +23,7 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-PipelineOptions options_for(PipelineType type) {
+PipelineOptions thin_scan_options(PipelineType type) {
   PipelineOptions options;
   options.type = type;
   options.inertial.normals.min_radius = 0.3;  // the recording's scans are thin
@@ -86,7 +86,7 @@ TEST_P(EveryPipelineInAPriorMap, FindsItsWayNearAStartAndLeavesTheMapAsItIs) {
   Start start{T_map_room, true};
   start.T_map_body.translation() += Eigen::Vector3d(0.4, -0.3, 0.1);
   start.T_map_body.linear() = so3_exp({0.0, 0.0, 2.2});
-  PriorPipeline pipeline(options_for(GetParam()), prior_map(T_map_room), start, false);
+  PriorPipeline pipeline(thin_scan_options(GetParam()), prior_map(T_map_room), start, false);
   const std::vector<FrameResult> results = recording().run(pipeline);
   EXPECT_EQ(results.back().status, FrameStatus::kTracking);
   EXPECT_LT(worst_error(recording(), T_map_room, results), 0.05);
@@ -105,14 +105,14 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(PriorPipeline, FindsThePlaceByItself) {
   const Pose T_map_room = room_in_map(0.0);
   PriorPipeline pipeline(
-      options_for(PipelineType::kFastLio), prior_map(T_map_room), std::nullopt, false);
+      thin_scan_options(PipelineType::kFastLio), prior_map(T_map_room), std::nullopt, false);
   const std::vector<FrameResult> results = recording().run(pipeline);
   EXPECT_EQ(results.back().status, FrameStatus::kTracking);
   EXPECT_LT(worst_error(recording(), T_map_room, results), 0.05);
 }
 
 TEST(PriorPipeline, IsNotLostWhereNoPlaceWasConfirmed) {
-  PipelineOptions options = options_for(PipelineType::kLidarOnly);
+  PipelineOptions options = thin_scan_options(PipelineType::kLidarOnly);
   options.lidar_only.align.min_residuals = 100'000;  // more than any scan has
   const Pose T_map_room = room_in_map(0.0);
   PriorPipeline pipeline(options, prior_map(T_map_room), Start{T_map_room, true}, false);
@@ -127,7 +127,10 @@ TEST(PriorPipeline, IsNotLostWhereNoPlaceWasConfirmed) {
 TEST(PriorPipeline, TakesGravityFromTheScansInATiltedMap) {
   const Pose T_map_room = room_in_map(0.5);
   PriorPipeline pipeline(
-      options_for(PipelineType::kFastLio), prior_map(T_map_room), Start{T_map_room, false}, false);
+      thin_scan_options(PipelineType::kFastLio),
+      prior_map(T_map_room),
+      Start{T_map_room, false},
+      false);
   const std::vector<FrameResult> results = recording().run(pipeline);
   EXPECT_EQ(results.back().status, FrameStatus::kTracking);
   EXPECT_LT(worst_error(recording(), T_map_room, results), 0.05);
@@ -137,7 +140,10 @@ TEST(PriorPipeline, ExtendsTheMapOnlyWhenAskedTo) {
   const Pose T_map_room = room_in_map(0.0);
   const std::size_t size = prior_map(T_map_room).size();
   PriorPipeline pipeline(
-      options_for(PipelineType::kFastLio), prior_map(T_map_room), Start{T_map_room, true}, true);
+      thin_scan_options(PipelineType::kFastLio),
+      prior_map(T_map_room),
+      Start{T_map_room, true},
+      true);
   recording().run(pipeline);
   EXPECT_GT(pipeline.map().size(), size);
 }
@@ -146,7 +152,8 @@ TEST(PriorPipeline, ClaimsNoPlaceWhereTheScansDoNotFit) {
   const Pose T_map_room = room_in_map(0.0);
   Start start{T_map_room, true};
   start.T_map_body.translation().x() += 20.0;
-  PriorPipeline pipeline(options_for(PipelineType::kFastLio), prior_map(T_map_room), start, false);
+  PriorPipeline pipeline(
+      thin_scan_options(PipelineType::kFastLio), prior_map(T_map_room), start, false);
   for (const FrameResult& result : recording().run(pipeline)) {
     EXPECT_EQ(result.status, FrameStatus::kInitializing);
     EXPECT_THAT(result.message, HasSubstr("not found in the prior map"));
@@ -162,7 +169,7 @@ TEST(PriorPipeline, NeverTakesTheOutsideOfARoomForItsInside) {
   VoxelMap map;
   map.insert(scan.points, scan.normals);
   PriorPipeline pipeline(
-      options_for(PipelineType::kLidarOnly), std::move(map), std::nullopt, false);
+      thin_scan_options(PipelineType::kLidarOnly), std::move(map), std::nullopt, false);
   RoomRecording short_recording = recording();
   short_recording.duration = 0.5;
   for (const FrameResult& result : short_recording.run(pipeline)) {
@@ -171,7 +178,7 @@ TEST(PriorPipeline, NeverTakesTheOutsideOfARoomForItsInside) {
 }
 
 TEST(PriorPipeline, RefusesMapsWithoutPointsOrNormals) {
-  const PipelineOptions options = options_for(PipelineType::kLidarOnly);
+  const PipelineOptions options = thin_scan_options(PipelineType::kLidarOnly);
   const auto make = [&](VoxelMap map) {
     PriorPipeline(options, std::move(map), std::nullopt, false);
   };

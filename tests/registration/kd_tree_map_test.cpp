@@ -15,7 +15,7 @@
 namespace nvm {
 namespace {
 
-const Eigen::Vector3f kUp = Eigen::Vector3f::UnitZ();
+const Eigen::Vector3f kAnyNormal = Eigen::Vector3f::UnitZ();
 
 TEST(KdTreeMap, ModelsTheMapConcept) {
   EXPECT_TRUE(is_map_v<KdTreeMap>);
@@ -39,7 +39,7 @@ TEST(KdTreeMap, AgreesWithBruteForce) {
   for (int query = 0; query < 200; ++query) {
     const Eigen::Vector3d point = random_point();
     const NearestSearch search{8, 0.3};
-    const std::size_t count = map.nearest(point, kUp, search, found.data(), context);
+    const std::size_t count = map.nearest(point, kAnyNormal, search, found.data(), context);
     std::vector<float> expected;
     for (const Eigen::Vector3d& stored : map.points()) {
       if ((stored - point).norm() <= search.max_distance) {
@@ -78,27 +78,27 @@ TEST(KdTreeMap, DistanceIsInclusive) {
   KdTreeMap::QueryContext context;
   Neighbor found{};
   const Eigen::Vector3d origin = Eigen::Vector3d::Zero();
-  EXPECT_EQ(map.nearest(origin, kUp, {1, 1.0}, &found, context), 1U);
-  EXPECT_EQ(map.nearest(origin, kUp, {1, 0.999}, &found, context), 0U);
+  EXPECT_EQ(map.nearest(origin, kAnyNormal, {1, 1.0}, &found, context), 1U);
+  EXPECT_EQ(map.nearest(origin, kAnyNormal, {1, 0.999}, &found, context), 0U);
 }
 
 TEST(KdTreeMap, EmptyMapAndBadQueriesFindNothing) {
   KdTreeMap map;
   KdTreeMap::QueryContext context;
   Neighbor found{};
-  EXPECT_EQ(map.nearest(Eigen::Vector3d::Zero(), kUp, {}, &found, context), 0U);
+  EXPECT_EQ(map.nearest(Eigen::Vector3d::Zero(), kAnyNormal, {}, &found, context), 0U);
   map.insert_unsided(std::vector<Eigen::Vector3d>{});
-  EXPECT_EQ(map.nearest(Eigen::Vector3d::Zero(), kUp, {}, &found, context), 0U);
+  EXPECT_EQ(map.nearest(Eigen::Vector3d::Zero(), kAnyNormal, {}, &found, context), 0U);
   map.insert_unsided(std::vector<Eigen::Vector3d>{{1.0, 0.0, 0.0}});
   const double inf = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(map.nearest({inf, 0.0, 0.0}, kUp, {}, &found, context), 0U);
+  EXPECT_EQ(map.nearest({inf, 0.0, 0.0}, kAnyNormal, {}, &found, context), 0U);
   const Eigen::Vector3d near(1.1, 0.0, 0.0);
   found.id = 77;
-  EXPECT_EQ(map.nearest(near, kUp, {0, 1.0}, &found, context), 0U);
-  EXPECT_EQ(map.nearest(near, kUp, {1, -1.0}, &found, context), 0U);
-  EXPECT_EQ(map.nearest(near, kUp, {1, std::nan("")}, &found, context), 0U);
+  EXPECT_EQ(map.nearest(near, kAnyNormal, {0, 1.0}, &found, context), 0U);
+  EXPECT_EQ(map.nearest(near, kAnyNormal, {1, -1.0}, &found, context), 0U);
+  EXPECT_EQ(map.nearest(near, kAnyNormal, {1, std::nan("")}, &found, context), 0U);
   EXPECT_EQ(found.id, 77U);
-  EXPECT_EQ(map.nearest(near, kUp, {1, inf}, &found, context), 1U);
+  EXPECT_EQ(map.nearest(near, kAnyNormal, {1, inf}, &found, context), 1U);
   EXPECT_THROW(KdTreeMap(0.0), std::invalid_argument);
 }
 

@@ -8,15 +8,13 @@
 #include <cmath>
 #include <random>
 
+#include "support/random_vector.hpp"
 #include "support/rng.hpp"
 
 namespace nvm {
 namespace {
 
-Eigen::Vector3d random_vector(std::mt19937_64& rng) {
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  return {uniform(rng), uniform(rng), uniform(rng)};
-}
+using test::random_vector;
 
 Pose random_pose(std::mt19937_64& rng) {
   Pose pose = Pose::Identity();

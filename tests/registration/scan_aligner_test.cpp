@@ -12,16 +12,14 @@
 
 #include "nvm/core/executor_tbb.hpp"
 #include "nvm/map/kd_tree_map.hpp"
+#include "support/random_vector.hpp"
 #include "support/rng.hpp"
 #include "support/room.hpp"
 
 namespace nvm {
 namespace {
 
-Eigen::Vector3d random_vector(std::mt19937_64& rng) {
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  return {uniform(rng), uniform(rng), uniform(rng)};
-}
+using test::random_vector;
 
 Pose pose(const Eigen::Vector3d& rotation, const Eigen::Vector3d& translation) {
   Pose result = Pose::Identity();

@@ -7,14 +7,9 @@
 
 #include "sim/angles.hpp"
 #include "sim/scene.hpp"
+#include "support/random_vector.hpp"
 
 namespace nvm::test {
-
-/// Uniform in a cube of that half size around the origin.
-inline Eigen::Vector3d random_vector(std::mt19937_64& rng, double half_size) {
-  std::uniform_real_distribution<double> uniform(-half_size, half_size);
-  return {uniform(rng), uniform(rng), uniform(rng)};
-}
 
 /// Boxes and cylinders of 0.1 to 1.5 m, turned at random, spread over 12 m.
 inline sim::Scene random_scene(std::mt19937_64& rng, int solids_of_each_kind) {

@@ -9,6 +9,9 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <utility>
+
+#include "common/median.hpp"
 
 namespace nvm::eval {
 
@@ -42,12 +45,7 @@ double usual_step(const Trajectory& trajectory) {
   for (std::size_t i = 1; i < trajectory.size(); ++i) {
     steps.push_back(trajectory[i].time - trajectory[i - 1].time);
   }
-  if (steps.empty()) {
-    return std::numeric_limits<double>::infinity();
-  }
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  return steps.empty() ? std::numeric_limits<double>::infinity() : median(std::move(steps));
 }
 
 double default_max_gap(const Trajectory& interpolated) {

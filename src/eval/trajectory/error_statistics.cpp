@@ -6,19 +6,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "nvm/core/assert.hpp"
+#include "common/median.hpp"
 
 namespace nvm::eval {
-
-double median(std::vector<double> values) {
-  NVM_ASSERT(!values.empty());
-  const auto upper = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), upper, values.end());
-  if (values.size() % 2 == 1) {
-    return *upper;
-  }
-  return 0.5 * (*upper + *std::max_element(values.begin(), upper));
-}
 
 std::optional<ErrorStatistics> summarize(std::vector<double> errors) {
   if (errors.empty()) {

@@ -13,14 +13,11 @@ struct ErrorStatistics {
   std::size_t count = 0;
   double rmse = 0.0;
   double mean = 0.0;
-  double median = 0.0;  ///< the mean of the middle two of an even count
+  double median = 0.0;  ///< of an even count the mean of the two in the middle
   double max = 0.0;
 };
 
 /// The statistics of `errors`; nothing for an empty set.
 std::optional<ErrorStatistics> summarize(std::vector<double> errors);
-
-/// The median of `values`, which must not be empty; the mean of the middle two of an even count.
-double median(std::vector<double> values);
 
 }  // namespace nvm::eval

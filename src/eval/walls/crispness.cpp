@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "eval/trajectory/error_statistics.hpp"
+#include "common/median.hpp"
 
 namespace nvm::eval {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "eval/trajectory/error_statistics.hpp"
+#include "common/median.hpp"
 
 namespace nvm::eval {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "eval/trajectory/error_statistics.hpp"
+#include "common/median.hpp"
 
 namespace nvm::eval {
 

@@ -22,7 +22,7 @@ struct PcdType {
   ScalarType scalar;
 };
 
-constexpr std::array<PcdType, 10> kTypes = {{
+constexpr std::array<PcdType, 10> kPcdTypes = {{
     {'I', 1, ScalarType::kInt8},
     {'U', 1, ScalarType::kUint8},
     {'I', 2, ScalarType::kInt16},
@@ -36,7 +36,7 @@ constexpr std::array<PcdType, 10> kTypes = {{
 }};
 
 /// The header's entries as they stand in the file.
-struct Header {
+struct PcdHeader {
   std::vector<std::string> names;
   std::vector<std::size_t> sizes;
   std::vector<std::string> types;
@@ -48,11 +48,12 @@ struct Header {
   std::size_t end = 0;  ///< where the data begin [bytes]
 };
 
-class HeaderParser {
+class PcdHeaderParser {
  public:
-  HeaderParser(std::string path, std::string_view bytes) : path_(std::move(path)), bytes_(bytes) {}
+  PcdHeaderParser(std::string path, std::string_view bytes)
+      : path_(std::move(path)), bytes_(bytes) {}
 
-  Header parse() {
+  PcdHeader parse() {
     while (header_.encoding.empty()) {
       const std::size_t end = bytes_.find('\n', header_.end);
       if (end == std::string_view::npos) {
@@ -118,11 +119,11 @@ class HeaderParser {
 
   std::string path_;
   std::string_view bytes_;
-  Header header_;
+  PcdHeader header_;
 };
 
 ScalarType scalar_type(const std::string& path, const std::string& type, std::size_t size) {
-  for (const PcdType& known : kTypes) {
+  for (const PcdType& known : kPcdTypes) {
     if (type.size() == 1 && type[0] == known.type && size == known.size) {
       return known.scalar;
     }
@@ -132,7 +133,7 @@ ScalarType scalar_type(const std::string& path, const std::string& type, std::si
 }
 
 /// The number of points that WIDTH, HEIGHT and POINTS agree on.
-std::size_t point_count(const std::string& path, const Header& header) {
+std::size_t point_count(const std::string& path, const PcdHeader& header) {
   const std::size_t width = header.width.value_or(header.points.value_or(0));
   std::size_t count = 0;
   if ((!header.width && !header.points) || __builtin_mul_overflow(width, header.height, &count) ||
@@ -142,7 +143,7 @@ std::size_t point_count(const std::string& path, const Header& header) {
   return count;
 }
 
-PointRecords records_of(const std::string& path, const Header& header) {
+PointRecords records_of(const std::string& path, const PcdHeader& header) {
   const std::size_t fields = header.names.size();
   if (fields == 0 || header.sizes.size() != fields || header.types.size() != fields ||
       (!header.counts.empty() && header.counts.size() != fields)) {
@@ -210,7 +211,7 @@ void read_compressed(std::string_view data, PointRecords& records) {
 
 PointRecords read_pcd(const std::string& path) {
   std::string bytes = read_file(path);
-  const Header header = HeaderParser(path, bytes).parse();
+  const PcdHeader header = PcdHeaderParser(path, bytes).parse();
   PointRecords records = records_of(path, header);
   if (header.encoding == "ascii") {
     append_text_records(std::string_view(bytes).substr(header.end), records);
@@ -230,7 +231,7 @@ void write_pcd(const std::string& path, const PointRecords& records) {
   std::string types;
   std::string counts;
   for (const Field& field : records.fields) {
-    for (const PcdType& known : kTypes) {
+    for (const PcdType& known : kPcdTypes) {
       if (known.scalar == field.type) {
         types += std::string(" ") + known.type;
       }

@@ -18,7 +18,7 @@ struct PlyType {
   ScalarType scalar;
 };
 
-constexpr std::array<PlyType, 8> kTypes = {{
+constexpr std::array<PlyType, 8> kPlyTypes = {{
     {"char", "int8", ScalarType::kInt8},
     {"uchar", "uint8", ScalarType::kUint8},
     {"short", "int16", ScalarType::kInt16},
@@ -35,17 +35,18 @@ struct Element {
   PointRecords records;
 };
 
-struct Header {
+struct PlyHeader {
   std::string encoding;
   std::vector<Element> elements;
   std::size_t end = 0;  ///< where the data begin [bytes]
 };
 
-class HeaderParser {
+class PlyHeaderParser {
  public:
-  HeaderParser(std::string path, std::string_view bytes) : path_(std::move(path)), bytes_(bytes) {}
+  PlyHeaderParser(std::string path, std::string_view bytes)
+      : path_(std::move(path)), bytes_(bytes) {}
 
-  Header parse() {
+  PlyHeader parse() {
     if (next_line() != std::vector<std::string_view>{"ply"}) {
       fail(path_, "is no PLY file: it does not begin with 'ply'");
     }
@@ -100,7 +101,7 @@ class HeaderParser {
   }
 
   ScalarType scalar_type(std::string_view name) const {
-    for (const PlyType& known : kTypes) {
+    for (const PlyType& known : kPlyTypes) {
       if (name == known.name || name == known.sized_name) {
         return known.scalar;
       }
@@ -110,11 +111,11 @@ class HeaderParser {
 
   std::string path_;
   std::string_view bytes_;
-  Header header_;
+  PlyHeader header_;
 };
 
 /// Moves `data` behind the elements that stand before the vertices and gives those.
-PointRecords skip_to_vertices(Header& header, const std::string& path, std::string_view& data) {
+PointRecords skip_to_vertices(PlyHeader& header, const std::string& path, std::string_view& data) {
   for (Element& element : header.elements) {
     const PointRecords& records = element.records;
     if (element.has_list) {
@@ -139,7 +140,7 @@ PointRecords skip_to_vertices(Header& header, const std::string& path, std::stri
 
 PointRecords read_ply(const std::string& path) {
   const std::string bytes = read_file(path);
-  Header header = HeaderParser(path, bytes).parse();
+  PlyHeader header = PlyHeaderParser(path, bytes).parse();
   std::string_view data = std::string_view(bytes).substr(header.end);
   PointRecords records = skip_to_vertices(header, path, data);
   if (header.encoding == "ascii") {
@@ -157,7 +158,7 @@ void write_ply(const std::string& path, const PointRecords& records) {
   AtomicFile file(path);
   file.stream() << "ply\nformat binary_little_endian 1.0\nelement vertex " << records.size << '\n';
   for (const Field& field : records.fields) {
-    for (const PlyType& known : kTypes) {
+    for (const PlyType& known : kPlyTypes) {
       if (known.scalar == field.type) {
         file.stream() << "property " << known.name << ' ' << field.name << '\n';
       }

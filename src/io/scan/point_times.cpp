@@ -9,6 +9,7 @@
 #include <cmath>
 #include <utility>
 
+#include "common/median.hpp"
 #include "io/scan/tick_window.hpp"
 
 namespace nvm::io {
@@ -16,7 +17,6 @@ namespace {
 
 constexpr double kTypicalPeriod = 0.1;  // [s]
 constexpr double kEpochTime = 1e8;      // [s]: three years; no clock since boot is there
-constexpr double kNear = 10.0;          // [s]
 
 struct Unit {
   TimeUnit unit;
@@ -169,13 +169,13 @@ class Learner {
     const bool repeats = sweeps_.size() < kFew
                              ? std::abs(times_.begin) <= std::abs(delay)
                              : spread(begins) <= spread(delays) && spread(begins) < times_.period;
-    if (repeats && std::abs(times_.begin) <= kNear) {
+    if (repeats && std::abs(times_.begin) <= kMaxStampOffset) {
       times_.base = PointTimes::Base::kStamp;
       return;
     }
     const bool is_epoch = times_.begin > kEpochTime;
     const bool has_stamps = !options_.has_assumed_stamps && sweeps_.front().stamp != 0.0;
-    const bool is_near = std::abs(delay) < std::min(std::abs(times_.begin), kNear);
+    const bool is_near = std::abs(delay) < std::min(std::abs(times_.begin), kMaxStampOffset);
     times_.base = is_near || (is_epoch && !has_stamps) ? PointTimes::Base::kAbsolute
                                                        : PointTimes::Base::kOtherClock;
     clock_offset_ = -delay;

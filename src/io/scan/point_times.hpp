@@ -19,6 +19,9 @@ enum class TimeUnit {
   kSweep,  ///< 0 to 1 from the sweep's begin to its end
 };
 
+/// From the stamp to the points of a scan in the same clock, at most [s].
+constexpr double kMaxStampOffset = 10.0;
+
 /// What the stamp of a scan dates.
 enum class StampMeaning { kAutomatic, kBegin, kEnd };
 

@@ -16,9 +16,6 @@
 namespace nvm::io {
 namespace {
 
-/// [s] from the stamp to the points of a scan in the same clock, at most.
-constexpr double kNear = 10.0;
-
 /// Ticks that sample a cloud's times.
 constexpr std::size_t kSampleSize = 500;
 
@@ -175,7 +172,7 @@ bool ScanConverter::is_plausible(double first, double last, double stamp) const 
       return std::abs(first * seconds - times_.begin) <= times_.max_duration;
     case PointTimes::Base::kAbsolute:
       return options_.has_assumed_stamps || stamp == 0.0 ||
-             std::abs(first * seconds - stamp) <= kNear;
+             std::abs(first * seconds - stamp) <= kMaxStampOffset;
     default:
       return true;
   }

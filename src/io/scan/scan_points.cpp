@@ -8,7 +8,9 @@
 #include <limits>
 #include <string>
 #include <type_traits>
+#include <utility>
 
+#include "common/median.hpp"
 #include "io/file/file.hpp"
 
 namespace nvm::io {
@@ -77,9 +79,8 @@ std::array<double, 3> map_origin(const PointRecords& records) {
     const auto is_nothing = [](double value) { return !std::isfinite(value) || value == 0.0; };
     values.erase(std::remove_if(values.begin(), values.end(), is_nothing), values.end());
     if (!values.empty()) {
-      const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-      std::nth_element(values.begin(), middle, values.end());
-      origin[axis] = std::abs(*middle) > kFar ? std::round(*middle) : 0.0;
+      const double middle = median(std::move(values));
+      origin[axis] = std::abs(middle) > kFar ? std::round(middle) : 0.0;
     }
   }
   return origin;

@@ -6,6 +6,10 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "common/median.hpp"
 
 namespace nvm::io {
 
@@ -19,18 +23,17 @@ std::string SweepOverlap::learn(const std::vector<Scan>& first) {
   for (const Scan& scan : first) {
     lengths.push_back(scan.t_end - scan.t_begin);
   }
-  const auto median = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), median, lengths.end());
   // The mean, because it does not change with stamps that jitter.
   const double interval =
       (first.back().t_begin - first.front().t_begin) / static_cast<double>(first.size() - 1);
-  is_watched_ = interval < kOverlapping * *median;
+  const double length = median(std::move(lengths));
+  is_watched_ = interval < kOverlapping * length;
   return is_watched_
              ? fmt::format(
                    "sweeps overlap: they last {:.3f} s and begin {:.3f} s apart, as those of "
                    "two LiDARs on one topic; those that follow one another are used: record "
                    "a topic for each LiDAR",
-                   *median,
+                   length,
                    interval)
              : "";
 }

@@ -6,13 +6,9 @@
 #include <cmath>
 #include <utility>
 
-namespace nvm::io {
+#include "common/median.hpp"
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
+namespace nvm::io {
 
 double spread(std::vector<double> values) {
   const double center = median(values);

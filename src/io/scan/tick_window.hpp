@@ -25,10 +25,7 @@ TickWindow main_part(const std::vector<double>& ticks);
 /// apart, or all in its upper half, the upper ones are negative. No change for modulus 0.
 void unwrap(std::vector<double>& ticks, double modulus);
 
-/// `values` must not be empty.
-double median(std::vector<double> values);
-
-/// The median distance from the median.
+/// The median distance from the median. `values` must not be empty.
 double spread(std::vector<double> values);
 
 }  // namespace nvm::io

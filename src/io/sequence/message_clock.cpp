@@ -9,14 +9,10 @@
 #include <iterator>
 #include <utility>
 
+#include "common/median.hpp"
+
 namespace nvm::io {
 namespace {
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// The ascending ones of `times`, without repetitions.
 std::vector<double> ascending(const std::vector<double>& times) {

@@ -7,6 +7,8 @@
 #include <iterator>
 #include <optional>
 
+#include "common/median.hpp"
+
 namespace nvm::lio {
 
 namespace {
@@ -163,10 +165,7 @@ double ImuBuffer::interval() const {
   if (intervals_.empty()) {
     return 0.0;
   }
-  std::vector<double> sorted(intervals_.begin(), intervals_.end());
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  return *middle;
+  return median({intervals_.begin(), intervals_.end()});
 }
 
 void ImuBuffer::between(

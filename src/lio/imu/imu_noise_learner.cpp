@@ -9,8 +9,8 @@ namespace nvm::lio {
 
 namespace {
 
-constexpr double kMaxInterval = 0.05;  // [s]: beyond it motion shows in the differences
-constexpr double kBlock = 0.1;         // [s]
+constexpr double kMaxStillInterval = 0.05;  // [s]: beyond it motion shows in the differences
+constexpr double kBlock = 0.1;              // [s]
 constexpr std::size_t kMinThirds = 50;
 constexpr std::size_t kMinSteps = 6;
 constexpr double kMaxCoarse = 2.0;
@@ -28,7 +28,7 @@ double learned(double given, double usual, double density) {
 
 void ImuNoiseLearner::add(const ImuSample& sample) {
   const double interval = sample.time - last_time_;
-  if (!has_time_ || !(interval > 0.0 && interval <= kMaxInterval)) {
+  if (!has_time_ || !(interval > 0.0 && interval <= kMaxStillInterval)) {
     gyro_.interrupt();
     accel_.interrupt();
   } else {

@@ -8,10 +8,10 @@ namespace nvm::lio {
 
 namespace {
 
-constexpr std::size_t kEnough = 10;     // good readings that tell what is off
-constexpr int kRegular = 10;            // changes on end of an axis that always changes
-constexpr double kMaxInterval = 0.05;   // [s]: beyond it a motion may leap
-constexpr double kLongestStill = 0.05;  // [s]
+constexpr std::size_t kEnough = 10;        // good readings that tell what is off
+constexpr int kRegular = 10;               // changes on end of an axis that always changes
+constexpr double kMaxLeapInterval = 0.05;  // [s]: beyond it a motion may leap
+constexpr double kLongestStill = 0.05;     // [s]
 
 }  // namespace
 
@@ -70,7 +70,7 @@ bool ImuOutliers::is_off(const ImuSample& reading) const {
   constexpr double kGyroChange = 15.0;  // [rad/s^2]
   constexpr double kLongest = 0.5;      // [s]
   const double interval = reading.time - latest_time_;
-  if (good_ < kEnough || interval > kMaxInterval) {
+  if (good_ < kEnough || interval > kMaxLeapInterval) {
     return false;
   }
   const double since = std::min(reading.time - last_time_ - interval, kLongest);
