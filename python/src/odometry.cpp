@@ -125,6 +125,18 @@ class Odometry {
     return nb::make_tuple(to_array(points), to_array(normals));
   }
 
+  nb::object scan_intensity() const {
+    std::vector<float> intensities;
+    {
+      const nb::gil_scoped_release no_gil;
+      const std::lock_guard lock(mutex_);
+      for (const PointValues& values : pipeline_->scan().values) {
+        intensities.push_back(values.intensity);
+      }
+    }
+    return nb::cast(to_array(std::move(intensities)));
+  }
+
  private:
   void make(bool has_imu) {
     lio::PipelineOptions resolved = options_;
@@ -237,6 +249,11 @@ void bind_odometry(nb::module_& module) {
       .def("register", &Odometry::add_scan, "scan"_a, "A Scan, which `ScanStream.convert` gives.")
       .def("findings", &Odometry::findings, kFindingsDoc)
       .def_prop_ro("scan", &Odometry::scan, kScanDoc)
+      .def_prop_ro(
+          "scan_intensity",
+          &Odometry::scan_intensity,
+          "float32 (N,): what `scan`'s points returned, as the sensor gives it; 0 where it does "
+          "not.")
       .def_prop_ro(
           "map", &Odometry::map, nb::rv_policy::take_ownership, "VoxelMap: a copy of the map.");
 }

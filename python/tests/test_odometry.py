@@ -246,6 +246,10 @@ def test_maps_carry_the_intensities_of_the_returns(rng):
         order = rng.permutation(len(points))
         odometry.register(points[order], time, intensity=10_000 * i + order)
         clouds.append(points)
+        scan = odometry.scan[0]
+        assert odometry.scan_intensity.shape == (len(scan),)
+        rows = odometry.scan_intensity.astype(int) - 10_000 * i
+        np.testing.assert_allclose(scan, points[rows], atol=0.05)  # deskewed
     assert len(odometry.map) > 100
     for number, point in zip(odometry.map.column("intensity").astype(int), odometry.map.points):
         scan, row = divmod(number, 10_000)

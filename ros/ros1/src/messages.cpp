@@ -56,8 +56,15 @@ Matrix6 base_covariance(const nvm::lio::FrameResult& frame, const Pose& T_body_b
   return to_base * frame.pose_covariance * to_base.transpose();
 }
 
-/// An unorganised cloud of float32 fields, and one byte at the end when `has_side`.
-sensor_msgs::PointCloud2 empty_cloud(const std::string& frame, double time, bool has_side) {
+/// Whether a cloud has the fields that not all have.
+struct CloudFields {
+  bool intensity = false;
+  bool side = false;
+};
+
+/// An unorganised cloud of float32 fields, and one byte at the end for the side.
+sensor_msgs::PointCloud2 empty_cloud(
+    const std::string& frame, double time, const CloudFields& fields) {
   sensor_msgs::PointCloud2 cloud;
   cloud.header.frame_id = frame;
   cloud.header.stamp = stamp_of(time);
@@ -75,7 +82,10 @@ sensor_msgs::PointCloud2 empty_cloud(const std::string& frame, double time, bool
   for (const char* name : {"x", "y", "z", "normal_x", "normal_y", "normal_z"}) {
     add_field(name, sensor_msgs::PointField::FLOAT32, sizeof(float));
   }
-  if (has_side) {
+  if (fields.intensity) {
+    add_field("intensity", sensor_msgs::PointField::FLOAT32, sizeof(float));
+  }
+  if (fields.side) {
     add_field("side", sensor_msgs::PointField::UINT8, sizeof(std::uint8_t));
   }
   return cloud;
@@ -87,11 +97,26 @@ void resize(std::size_t size, sensor_msgs::PointCloud2& cloud) {
   cloud.data.resize(size * cloud.point_step);
 }
 
-void write_point(
-    const Eigen::Vector3f& position, const Eigen::Vector3f& normal, std::uint8_t* out) {
-  std::memcpy(out, position.data(), 3 * sizeof(float));
-  std::memcpy(out + 3 * sizeof(float), normal.data(), 3 * sizeof(float));
-}
+/// Appends the bytes of one field after another.
+class PointWriter {
+ public:
+  explicit PointWriter(std::uint8_t* out) : out_(out) {}
+
+  void write(const Eigen::Vector3f& vector) { write_bytes(vector.data(), 3 * sizeof(float)); }
+
+  template <class Number>
+  void write(Number number) {
+    write_bytes(&number, sizeof(number));
+  }
+
+ private:
+  void write_bytes(const void* bytes, std::size_t size) {
+    std::memcpy(out_, bytes, size);
+    out_ += size;
+  }
+
+  std::uint8_t* out_;
+};
 
 }  // namespace
 
@@ -150,25 +175,32 @@ sensor_msgs::PointCloud2 frame_message(
   const Eigen::Affine3f T_base_lidar =
       Eigen::Affine3d(frames.T_body_base.inverse() * frames.T_body_lidar).cast<float>();
   const std::vector<Eigen::Vector3f>& points = pipeline.scan().points;
-  sensor_msgs::PointCloud2 cloud = empty_cloud(frames.base, time, false);
+  sensor_msgs::PointCloud2 cloud = empty_cloud(frames.base, time, {true, false});
   resize(points.size(), cloud);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    write_point(
-        T_base_lidar * points[i],
-        T_base_lidar.linear() * nvm::plane_normal(pipeline.normals()[i]),
-        &cloud.data[i * cloud.point_step]);
+    PointWriter out(&cloud.data[i * cloud.point_step]);
+    out.write(Eigen::Vector3f(T_base_lidar * points[i]));
+    out.write(Eigen::Vector3f(T_base_lidar.linear() * nvm::plane_normal(pipeline.normals()[i])));
+    out.write(pipeline.scan().values[i].intensity);
   }
   return cloud;
 }
 
 sensor_msgs::PointCloud2 map_message(
-    const std::vector<nvm::MapPoint>& points, double time, const std::string& odom) {
-  sensor_msgs::PointCloud2 cloud = empty_cloud(odom, time, true);
+    const std::vector<nvm::MapPoint>& points,
+    bool has_intensity,
+    double time,
+    const std::string& odom) {
+  sensor_msgs::PointCloud2 cloud = empty_cloud(odom, time, {has_intensity, true});
   resize(points.size(), cloud);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    std::uint8_t* out = &cloud.data[i * cloud.point_step];
-    write_point(points[i].position.cast<float>(), points[i].normal, out);
-    out[6 * sizeof(float)] = static_cast<std::uint8_t>(points[i].side);
+    PointWriter out(&cloud.data[i * cloud.point_step]);
+    out.write(Eigen::Vector3f(points[i].position.cast<float>()));
+    out.write(points[i].normal);
+    if (has_intensity) {
+      out.write(points[i].values.intensity);
+    }
+    out.write(static_cast<std::uint8_t>(points[i].side));
   }
   return cloud;
 }

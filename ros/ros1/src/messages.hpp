@@ -29,12 +29,15 @@ nav_msgs::Path path_message(
     const nvm::Trajectory& T_odom_base, const std::string& odom, std::size_t max_count);
 
 /// The pipeline's last scan, deskewed, in the base's frame: x y z, normal_x normal_y normal_z (zero
-/// where there is no plane).
+/// where there is no plane), intensity as the sensor gives it.
 sensor_msgs::PointCloud2 frame_message(
     const nvm::lio::Pipeline& pipeline, double time, const Frames& frames);
 
-/// x y z, normal_x normal_y normal_z, side.
+/// x y z, normal_x normal_y normal_z, intensity where the map keeps it, side.
 sensor_msgs::PointCloud2 map_message(
-    const std::vector<nvm::MapPoint>& points, double time, const std::string& odom);
+    const std::vector<nvm::MapPoint>& points,
+    bool has_intensity,
+    double time,
+    const std::string& odom);
 
 }  // namespace nvm_ros

@@ -114,7 +114,8 @@ void Outputs::publish_path() {
 void Outputs::publish_map(const nvm::lio::Pipeline& pipeline) {
   const Clock::time_point begin = Clock::now();
   const double time = trajectory_.empty() ? 0.0 : trajectory_.back().time;
-  map_.publish(map_message(pipeline.map().points(), time, options_.odom_frame));
+  const nvm::lio::LioMap& map = pipeline.map();
+  map_.publish(map_message(map.points(), map.columns().intensity, time, options_.odom_frame));
   const Clock::time_point end = Clock::now();
   const auto period = std::chrono::duration_cast<Clock::duration>(
       std::chrono::duration<double>(options_.map_period));

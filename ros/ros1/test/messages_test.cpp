@@ -113,18 +113,32 @@ TEST(PathMessage, IsThinnedToALengthAndEndsWithTheLastPose) {
   EXPECT_TRUE(path_message({}, "odom", 300).poses.empty());
 }
 
-TEST(MapMessage, HoldsPositionNormalAndSide) {
+TEST(MapMessage, HoldsWhatTheMapHasOfEachPoint) {
+  nvm::PointValues bright;
+  bright.intensity = 90.0F;
   const std::vector<nvm::MapPoint> points = {
-      {{1.0, 2.0, 3.0}, {0.0F, 0.0F, 1.0F}, 0}, {{4.0, 5.0, 6.0}, {0.0F, -1.0F, 0.0F}, 1}};
-  const sensor_msgs::PointCloud2 cloud = map_message(points, 7.0, "odom");
-  ASSERT_EQ(cloud.width, 2U);
-  ASSERT_EQ(cloud.data.size(), 2 * cloud.point_step);
-  ASSERT_EQ(cloud.fields.size(), 7U);
-  EXPECT_EQ(cloud.fields.back().name, "side");
-  float y = 0.0F;
-  std::memcpy(&y, &cloud.data[cloud.point_step + cloud.fields[1].offset], sizeof(y));
-  EXPECT_EQ(y, 5.0F);
-  EXPECT_EQ(cloud.data[cloud.point_step + cloud.fields.back().offset], 1);
+      {{1.0, 2.0, 3.0}, {0.0F, 0.0F, 1.0F}, 0, {}},
+      {{4.0, 5.0, 6.0}, {0.0F, -1.0F, 0.0F}, 1, bright}};
+  for (const bool has_intensity : {false, true}) {
+    const sensor_msgs::PointCloud2 cloud = map_message(points, has_intensity, 7.0, "odom");
+    ASSERT_EQ(cloud.width, 2U);
+    ASSERT_EQ(cloud.data.size(), 2 * cloud.point_step);
+    ASSERT_EQ(cloud.fields.size(), has_intensity ? 8U : 7U);
+    const auto second = [&](std::size_t field) {
+      float value = 0.0F;
+      std::memcpy(
+          &value, &cloud.data[cloud.point_step + cloud.fields[field].offset], sizeof(value));
+      return value;
+    };
+    EXPECT_EQ(second(1), 5.0F);
+    EXPECT_EQ(second(4), -1.0F);
+    if (has_intensity) {
+      EXPECT_EQ(cloud.fields[6].name, "intensity");
+      EXPECT_EQ(second(6), 90.0F);
+    }
+    EXPECT_EQ(cloud.fields.back().name, "side");
+    EXPECT_EQ(cloud.data[cloud.point_step + cloud.fields.back().offset], 1);
+  }
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ def expect_clouds(frame, scans):
     import sensor_msgs.point_cloud2 as clouds
 
     names = [field.name for field in frame.fields]
-    assert names == ["x", "y", "z", "normal_x", "normal_y", "normal_z"], names
+    assert names == ["x", "y", "z", "normal_x", "normal_y", "normal_z", "intensity"], names
     assert frame.header.frame_id == "imu"
     normals = list(clouds.read_points(frame, ("normal_x", "normal_y", "normal_z")))
     lengths = [sum(value * value for value in normal) for normal in normals]
@@ -21,6 +21,9 @@ def expect_clouds(frame, scans):
     points = list(clouds.read_points(scans, ("x", "y", "z", "normal_x", "side")))
     assert {point[4] for point in points} == {0, 1}, "the map has one side only"
     assert len(points) > 10_000, len(points)
+    for cloud in (frame, scans):
+        intensities = [point[0] for point in clouds.read_points(cloud, ("intensity",))]
+        assert 0 <= min(intensities) < 50 < max(intensities) <= 255
 
 
 def test(world):

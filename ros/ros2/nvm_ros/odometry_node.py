@@ -242,11 +242,15 @@ class OdometryNode(Node):
         T_base_lidar = np.linalg.inv(self._frames.T_body_base) @ self._frames.T_body_lidar
         turn = T_base_lidar[:3, :3]
         columns = columns_of(points @ turn.T + T_base_lidar[:3, 3], normals @ turn.T)
+        columns["intensity"] = self._odometry.scan_intensity
         self._frame_out.publish(cloud_message(stamp, self._frames.base, columns))
 
     def _publish_map(self, stamp) -> None:
         voxels = self._odometry.map
-        columns = columns_of(voxels.points, voxels.normals) | {"side": voxels.sides}
+        columns = columns_of(voxels.points, voxels.normals)
+        if voxels.options["intensity"]:
+            columns["intensity"] = voxels.column("intensity")
+        columns["side"] = voxels.sides
         self._map_out.publish(cloud_message(stamp, self.options.odom_frame, columns))
 
     def _report(self) -> None:

@@ -40,6 +40,11 @@ LATER = 1000.0  # [s]; time 0 has a meaning of its own in ROS
 needs_sequence = pytest.mark.skipif(not (SEQUENCE / "scans.csv").is_file(), reason="no $NVM_SEQUENCE")
 
 
+def column(cloud, name):
+    offset = next(field.offset for field in cloud.fields if field.name == name)
+    return np.ndarray(cloud.width, "<f4", bytes(cloud.data), offset, (cloud.point_step,))
+
+
 def recording():
     """Messages in order of time: (time [s], message)."""
     messages = []
@@ -52,7 +57,8 @@ def recording():
         messages.append((float(row["t"]), imu))
     for row in csv.DictReader(open(SEQUENCE / "scans.csv")):
         points = np.fromfile(SEQUENCE / row["file"], RECORD)
-        columns = {name: points["xyz"][:, i] for i, name in enumerate("xyz")} | {"time": points["dt"]}
+        columns = {name: points["xyz"][:, i] for i, name in enumerate("xyz")}
+        columns |= {"intensity": points["intensity"], "time": points["dt"]}
         cloud = cloud_message(stamp_of(float(row["t_begin"]) + LATER), "lidar", columns)
         messages.append((float(row["t_end"]), cloud))
     return sorted(messages, key=lambda item: (item[0], isinstance(item[1], PointCloud2)))
@@ -157,7 +163,10 @@ def test_gives_the_poses_of_nvm_odometry(world, tmp_path):
     assert bench.odometry[-1].child_frame_id == "imu"
     assert 0 < bench.odometry[-1].pose.covariance[0] < 1e-2
     wait_until(lambda: bench.maps and len(bench.frames) >= 5)
-    assert [f.name for f in bench.maps[-1].fields][-1] == "side"
+    assert [f.name for f in bench.maps[-1].fields][-2:] == ["intensity", "side"]
+    for cloud in (bench.maps[-1], bench.frames[-1]):
+        intensities = column(cloud, "intensity")
+        assert 0 <= intensities.min() < 50 < intensities.max() <= 255
     sides = np.frombuffer(bench.maps[-1].data, np.uint8).reshape(-1, bench.maps[-1].point_step)[:, -1]
     assert set(sides) == {0, 1}
     assert bench.frames[-1].header.frame_id == "imu" and bench.frames[-1].width > 1000
