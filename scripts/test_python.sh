@@ -27,3 +27,10 @@ done
 cd python/tests # not the root, whose folder python/nvm must not stand in for the installed package
 # No program is on the PATH, nor named: the commands have the one of the wheel.
 env -u NVM_PROGRAM PATH="$(dirname "$python"):/usr/bin:/bin" "$python" -m pytest
+
+# The packages for packets of sensors pin an old rosbags, so they have an environment of their own.
+python3 -m venv "$root/$folder/packets"
+python="$root/$folder/packets/bin/python"
+"$python" -m pip install --quiet ouster-sdk velodyne-decoder pytest
+"$python" -m pip install --quiet "$root/$wheel" 2>/dev/null # it says that ouster-sdk wants the old one
+"$python" -m pytest -p no:asyncio test_packets.py

@@ -89,6 +89,8 @@ class Recording:
         When it cannot be read, or rosbags is not installed.
     """
 
+    transforms_from = "/tf_static"
+
     def __init__(self, path: str | pathlib.Path):
         self.path = pathlib.Path(path)
         if not self.path.exists():

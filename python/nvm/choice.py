@@ -60,7 +60,7 @@ def choose(recording: Recording, lidar: str = "", imu: str = "") -> Choice:
     sensor, why = pick(recording, "imu", imus, imu, rank)
     found = tree.find(sensor.frame, chosen.frame)
     reasons.append(f"IMU: {sensor.name}, {why or imu_reason(sensor, imus, found)}")
-    reasons.append(extrinsic_reason(sensor, chosen, found))
+    reasons.append(extrinsic_reason(sensor, chosen, found, recording.transforms_from))
     return Choice(chosen, sensor, found[0] if found else None, tuple(reasons))
 
 
@@ -118,14 +118,14 @@ def imu_reason(chosen: Topic, imus: list[Topic], found) -> str:
     return near + others(imus, chosen)
 
 
-def extrinsic_reason(imu: Topic, lidar: Topic, found) -> str:
+def extrinsic_reason(imu: Topic, lidar: Topic, found, source: str) -> str:
     frames = f"'{imu.frame}' and '{lidar.frame}'"
     if found is None:
         return (
-            f"T_imu_lidar: /tf_static does not link {frames}: the identity is assumed; "
+            f"T_imu_lidar: {source} does not link {frames}: the identity is assumed; "
             "set input.T_imu_lidar=[x, y, z, qx, qy, qz, qw]"
         )
     if found[1] == 0:
         return f"T_imu_lidar: the identity, both are in the frame '{imu.frame}'"
     x, y, z = found[0][:3, 3]
-    return f"T_imu_lidar: from /tf_static, {frames} are {x:.3f} {y:.3f} {z:.3f} m apart"
+    return f"T_imu_lidar: from {source}, {frames} are {x:.3f} {y:.3f} {z:.3f} m apart"

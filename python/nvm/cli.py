@@ -10,16 +10,17 @@ import sys
 import tempfile
 
 from . import __version__
-from .bags import BagError, Recording, is_bag
+from .bags import BagError
 from .folders import is_url
+from .recordings import is_recording, open_recording
 
 
 def info(arguments) -> None:
     """Says what a recording, a saved map or a tile store holds."""
     from .info import described
 
-    if is_bag(arguments.path) and not is_url(arguments.path):
-        with Recording(arguments.path) as recording:
+    if is_recording(arguments.path) and not is_url(arguments.path):
+        with open_recording(arguments.path) as recording:
             print(described(recording))
         return
     from . import load, open_store

@@ -25,7 +25,7 @@ def described(recording: Recording) -> str:
     frames = recording.transforms().frames
     lines += [f"{topic.name}: left out, {topic.encoding} is no encoding of ROS" for topic in topics if not topic.is_ros]
     lines += recording.problems
-    lines.append(f"/tf_static: {', '.join(frames) if frames else 'nothing'}")
+    lines.append(f"{recording.transforms_from}: {', '.join(frames) if frames else 'nothing'}")
     lines.append("")
     try:
         lines += choose(recording).reasons

@@ -20,8 +20,10 @@ import sys
 import threading
 
 from . import _nvm
-from .bags import BagError, Recording, is_bag, is_ros1
+from .bags import BagError, Recording, is_ros1
 from .choice import Choice, choose
+from .packets import PacketRecording
+from .recordings import is_recording, open_recording
 from .topics import Topic
 
 END = 0xFFFFFFFF  # in the place of a topic
@@ -62,13 +64,13 @@ def run_program(arguments: list[str], keeps: tuple[int, ...] = ()) -> int:
     """Runs the program on `arguments` and returns its exit code. The first argument that names a bag
     is read for it. It inherits the file descriptors `keeps`."""
     program = find_program(arguments[0])
-    bags = [i for i, argument in enumerate(arguments) if i > 0 and is_bag(argument)]
+    bags = [i for i, argument in enumerate(arguments) if i > 0 and is_recording(argument)]
     if not bags or arguments[0] not in ("run", "map"):
         return run_alone([program, *arguments], keeps)
     before, bag, after = arguments[: bags[0]], arguments[bags[0]], arguments[bags[0] + 1 :]
     settings = input_settings(program, before + after)
     try:
-        recording = Recording(bag)
+        recording = open_recording(bag)
     except BagError as error:
         if not is_ros1(bag):
             raise
@@ -133,7 +135,7 @@ def choice_arguments(choice: Choice, settings: dict) -> list[str]:
     return [word for setting in chosen for word in ("--set", setting)]
 
 
-def feed(before: list[str], after: list[str], keeps, recording: Recording, choice: Choice) -> int:
+def feed(before: list[str], after: list[str], keeps, recording: Recording | PacketRecording, choice: Choice) -> int:
     """Runs a command with the messages of a recording in the place between its arguments."""
     _nvm.keep_freed_memory()  # the buffers of one cloud serve the next
     read_end, write_end = os.pipe()
@@ -154,7 +156,7 @@ def is_same(topic: Topic, chosen: Topic) -> bool:
     return (topic.name, topic.is_cloud, topic.is_imu) == (chosen.name, chosen.is_cloud, chosen.is_imu)
 
 
-def write_messages(descriptor: int, recording: Recording, choice: Choice) -> str:
+def write_messages(descriptor: int, recording: Recording | PacketRecording, choice: Choice) -> str:
     """Writes the messages of the chosen topics to a pipe; returns what was wrong with the recording,
     nothing when the reader ended first."""
     # A topic may change its type midway.

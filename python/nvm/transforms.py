@@ -58,8 +58,10 @@ class TransformTree:
             T[:3, :3] = rotation(q.x, q.y, q.z, q.w)
         if not np.isfinite(T).all():
             return
-        parent = stamped.header.frame_id.lstrip("/")
-        child = stamped.child_frame_id.lstrip("/")
+        self.link(stamped.header.frame_id.lstrip("/"), stamped.child_frame_id.lstrip("/"), T)
+
+    def link(self, parent: str, child: str, T: np.ndarray) -> None:
+        """Takes T_parent_child (4, 4), finite."""
         self._neighbors.setdefault(parent, {})[child] = T
         self._neighbors.setdefault(child, {})[parent] = np.linalg.inv(T)
 

@@ -79,7 +79,8 @@ std::string remedy(const std::string& path) {
     return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
   };
   if (is_one_of({".pcap", ".pcapng", ".osf"})) {
-    return ". It holds the sensor's packets: the maker's driver or tools write a ROS bag or scans";
+    return ". It holds the sensor's packets: nvm of the Python package reads those of Ouster and "
+           "Velodyne (docs/python.md), and other makers' drivers write ROS bags or scans";
   }
   if (is_one_of({".las", ".laz", ".e57", ".xyz", ".txt", ".csv", ".npy", ".npz", ".pts"})) {
     return ". CloudCompare or PDAL make PLY or PCD files of points";

@@ -24,13 +24,13 @@ double angle_of(const Eigen::Matrix3d& rotation) { return so3_log(rotation).norm
 /// Whether the gyroscope's scale alone is off, by more than the 1 or 2 % that gyroscopes are. What
 /// other clocks or axes leave unexplained is not.
 bool has_wrong_scale(const TurnComparison& turns) {
-  constexpr double kMinError = 0.04, kMaxError = 0.5;  // beyond are units
+  constexpr double kMinScaleError = 0.04, kMaxScaleError = 0.5;  // beyond are units
   constexpr double kDeviations = 6.0;
   constexpr double kMinTurned = 1.5;  // [rad]
   constexpr double kMaxUnexplained = 0.01;
   const double error = std::abs(turns.scale_of_changes - 1.0);
-  return turns.turned >= kMinTurned && turns.offset == 0.0 && error > kMinError &&
-         error < kMaxError && error > kDeviations * turns.scale_deviation &&
+  return turns.turned >= kMinTurned && turns.offset == 0.0 && error > kMinScaleError &&
+         error < kMaxScaleError && error > kDeviations * turns.scale_deviation &&
          turns.unexplained_changes < kMaxUnexplained;
 }
 

@@ -15,10 +15,10 @@ void LossWatch::note_reading(double time) {
 
 // A pause is no usual interval.
 void LossWatch::note_scan(double time) {
-  constexpr double kShare = 0.2;  // of the last one in what is usual
+  constexpr double kWeight = 0.2;  // of the last one in what is usual
   if (first_time_ && time > scan_time_ && !is_overdue(time)) {
     const double interval = time - scan_time_;
-    interval_ = interval_ ? (1.0 - kShare) * *interval_ + kShare * interval : interval;
+    interval_ = interval_ ? (1.0 - kWeight) * *interval_ + kWeight * interval : interval;
   }
   first_time_ = first_time_.value_or(time);
   scan_time_ = time;
