@@ -1,12 +1,13 @@
 # Helpers for nvm's own targets; nothing here reaches a user's targets.
 
 # gcc's -Wconversion leaves changes of sign out, GoogleTest's macros take no arguments, and points like PCL's are unions with
-# structs that have no name.
+# structs that have no name. A unity build puts the constants of one file above the functions of the next.
 set(nvm_clang_silences -Wno-sign-conversion -Wno-gnu-zero-variadic-macro-arguments -Wno-nested-anon-types)
 add_library(nvm_warnings INTERFACE)
 target_compile_options(
   nvm_warnings INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wshadow
                          "$<$<CXX_COMPILER_ID:Clang,AppleClang>:${nvm_clang_silences}>"
+                         $<$<BOOL:${CMAKE_UNITY_BUILD}>:-Wno-shadow>
                          $<$<BOOL:${NVM_WARNINGS_AS_ERRORS}>:-Werror>)
 
 # nvm_add_component(NAME sources...): a compiled part of nvm, src/NAME, as target nvm_NAME and nvm::NAME.
