@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "common/median.hpp"
+#include "eval/trajectory/error_statistics.hpp"
 
 namespace nvm::eval {
 
