@@ -34,7 +34,7 @@ TEST_F(OpenSequence, OtherPathsAreNoSequence) {
 }
 
 TEST_F(OpenSequence, FilesOfOtherKindsComeWithWhatToDo) {
-  EXPECT_THAT(error_of(write("a.PCAP", "?")), HasSubstr("the maker's driver"));
+  EXPECT_THAT(error_of(write("a.PCAP", "?")), HasSubstr("of the Python package"));
   EXPECT_THAT(error_of(write("a.laz", "?")), HasSubstr("CloudCompare"));
   EXPECT_THAT(error_of(write("a.bag.gz", "?")), HasSubstr("unpack it"));
 }
