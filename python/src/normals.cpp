@@ -56,7 +56,7 @@ Returns
     Unit vectors that look back at the viewpoint; zero where there is none. `NormalEstimator` says
     why.)";
 
-constexpr char kResultDoc[] = R"(Normals of a scan, row by row of its points.
+constexpr char kNormalResultDoc[] = R"(Normals of a scan, row by row of its points.
 
 Attributes
 ----------
@@ -144,7 +144,7 @@ Array<std::uint8_t> status_of(const NormalResult& result) {
 
 void bind_result(nb::module_& module) {
   constexpr auto kCopy = nb::rv_policy::automatic;
-  nb::class_<NormalResult> result(module, "NormalResult", kResultDoc);
+  nb::class_<NormalResult> result(module, "NormalResult", kNormalResultDoc);
   result
       .def_prop_ro(
           "normals", [](const NormalResult& self) { return to_array(self.normals); }, kCopy)

@@ -42,7 +42,7 @@ Returns
 -------
 AlignResult)";
 
-constexpr char kResultDoc[] = R"(Outcome of an alignment.
+constexpr char kAlignResultDoc[] = R"(Outcome of an alignment.
 
 Attributes
 ----------
@@ -114,7 +114,7 @@ Array<double> observability_of(const AlignResult& result) {
 }  // namespace
 
 void bind_registration(nb::module_& module) {
-  nb::class_<AlignResult>(module, "AlignResult", kResultDoc)
+  nb::class_<AlignResult>(module, "AlignResult", kAlignResultDoc)
       .def_prop_ro("T_map_scan", [](const AlignResult& self) { return to_array(self.T_map_scan); })
       .def_prop_ro("status", &status_name)
       .def_ro("iterations", &AlignResult::iterations)
