@@ -42,7 +42,7 @@ def test_an_interruption_is_no_traceback(monkeypatch):
     def interrupted(_):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(cli, "is_bag", interrupted)
+    monkeypatch.setattr(cli, "is_recording", interrupted)
     assert cli.main(["info", "anything"]) == 130
 
 
