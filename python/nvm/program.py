@@ -27,6 +27,7 @@ from .recordings import is_recording, open_recording
 from .topics import Topic
 
 END = 0xFFFFFFFF  # in the place of a topic
+LARGEST = 0xFFFFFFFF  # [bytes] of a message: far more than the program reads of one
 PIPE_SIZE = 1 << 20  # [bytes]
 BUFFER_SIZE = 1 << 16  # [bytes], which joins messages of IMUs and leaves clouds where they are
 
@@ -117,8 +118,9 @@ def input_settings(program: str, arguments: list[str]) -> dict:
         return {"lidar_topic": "", "imu_topic": "", "T_imu_lidar": ""}
     from ruamel.yaml import YAML
 
+    command, *others = arguments
     asked = subprocess.run(
-        [program, *arguments, "--print-config"], check=False, capture_output=True, text=True
+        [program, command, "--print-config", *others], check=False, capture_output=True, text=True
     )
     if asked.returncode != 0:
         raise RuntimeError(asked.stderr.strip() or "the program does not print its settings")
@@ -177,11 +179,14 @@ def write_messages(descriptor: int, recording: Recording | PacketRecording, choi
             for message in recording.messages(sorted({t.name for t in topics})):
                 if (message.topic, message.type) in places:
                     place = places[message.topic, message.type]
-                    pipe.write(struct.pack("<IdI", place, message.record_time, len(message.data)))
-                    pipe.write(message.data)
+                    data = message.data if len(message.data) <= LARGEST else message.data[:LARGEST]
+                    pipe.write(struct.pack("<IdI", place, message.record_time, len(data)))
+                    pipe.write(data)
             pipe.write(struct.pack("<I", END))
     except BrokenPipeError:
         pass
     except BagError as error:
         return str(error)
+    except MemoryError:
+        return f"{recording.path}: memory ran out while reading it"
     return ""

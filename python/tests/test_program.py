@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 pytest.importorskip("rosbags")
-from recordings import CLOUD, FORMATS, IMU, LIVOX, LIVOX_POINT, TF, records, write
+from recordings import CLOUD, FORMATS, IMU, LIVOX_POINT, TF, records, write
 from rosbags.rosbag1 import Reader as Reader1
 from rosbags.rosbag1 import Writer as Writer1
 from support import box_room, nvm
@@ -30,8 +30,8 @@ def room_records(rng, dtype, count=3000):
     return values
 
 
-def standing_still(rng, livox=False):
-    """A maker of 3 s of a LiDAR and an IMU in a room."""
+def standing_still(rng, livox=""):
+    """A maker of 3 s of a LiDAR and an IMU in a room; `livox`: the type of its clouds, if not PointCloud2."""
 
     def make(m):
         yield "/tf_static", TF, BEGIN, m.transforms(("imu", "lidar", (0.1, 0, 0.2), (0, 0, 0, 1)))
@@ -44,7 +44,7 @@ def standing_still(rng, livox=False):
             if livox:
                 points = room_records(rng, LIVOX_POINT)
                 points["offset_time"] = np.linspace(0, 99_000_000, len(points))
-                yield "/livox/lidar", LIVOX, time + 0.1, m.livox(time, points, "lidar")
+                yield "/livox/lidar", livox, time + 0.1, m.livox(time, points, "lidar")
             else:
                 yield "/points", CLOUD, time + 0.1, m.cloud(time, room_records(rng, POINTS))
 
@@ -97,9 +97,12 @@ def test_the_program_itself_gives_the_same_bits(reference, tmp_path):
     assert trajectory(tmp_path / "out") == reference[0]
 
 
-@pytest.mark.parametrize("form", ["bag", "mcap"])
-def test_livox_messages_run(tmp_path, form):
-    done = nvm("run", write(tmp_path / "livox", form, seeded(livox=True)), "--out", tmp_path / "out")
+@pytest.mark.parametrize(
+    "form, driver",
+    [("bag", "livox_ros_driver"), ("bag", "livox_ros_driver2"), ("mcap", "livox_ros_driver2"), ("db3", "livox_interfaces")],
+)
+def test_livox_messages_run(tmp_path, form, driver):
+    done = nvm("run", write(tmp_path / "livox", form, seeded(livox=f"{driver}/msg/CustomMsg")), "--out", tmp_path / "out")
     assert done.returncode == 0, done.stderr
     trajectory(tmp_path / "out")
 
@@ -115,6 +118,8 @@ def test_settings_of_the_command_line_win(tmp_path):
     done = nvm("run", bag, "--out", tmp_path / "out3", "--set", "map.voxelsize=1")
     assert done.returncode != 0 and "map.voxel_size" in done.stderr
     assert not (tmp_path / "out3").exists()
+    done = nvm("run", bag, "--out", tmp_path / "out3", "--set")
+    assert done.returncode != 0 and "nvm: --set: " in done.stderr and "print-config" not in done.stderr, done.stderr
 
 
 def test_a_bag_that_breaks_off_is_an_error_in_one_line(tmp_path):
@@ -230,3 +235,20 @@ def test_messages_name_the_recording_instead_of_its_pipe(tmp_path):
         assert done.returncode != 0 and f"nvm: {path}: " in done.stderr and "/dev/fd" not in done.stderr, done.stderr
     done = nvm("run", path, "--out", path)
     assert done.returncode != 0 and "is where the scans are" in done.stderr and "map.nvm" not in os.listdir(path)
+
+
+def test_memory_that_runs_out_names_the_recording(tmp_path, monkeypatch):
+    """The program has none of the memory that the first clouds take; its reader has."""
+    limited = tmp_path / "limited"
+    limited.write_text(f'#!/bin/sh\nulimit -v 100000\nexec "{PROGRAM}" "$@"\n')
+    limited.chmod(0o755)
+
+    def wide(m):
+        points = np.zeros(300_000, POINTS)
+        for i in range(10):
+            yield "/points", CLOUD, BEGIN + i, m.cloud(BEGIN + i, points)
+
+    path = write(tmp_path / "wide", "bag", wide)
+    monkeypatch.setenv("NVM_PROGRAM", str(limited))
+    done = nvm("run", path, "--out", tmp_path / "out", "--set", "threads=1")
+    assert f"nvm: memory ran out while opening {path}: " in done.stderr and "/dev/fd" not in done.stderr, done.stderr

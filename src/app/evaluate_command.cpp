@@ -10,12 +10,12 @@
 #include <string>
 #include <vector>
 
-#include "app/doing.hpp"
 #include "app/interruption.hpp"
 #include "app/say.hpp"
 #include "eval/report/evaluation.hpp"
 #include "eval/report/report.hpp"
 #include "eval/walls/region.hpp"
+#include "io/file/doing.hpp"
 
 namespace nvm::app {
 namespace {
@@ -96,7 +96,7 @@ void evaluate(EvaluateArguments& arguments) {
     arguments.options.regions = eval::read_regions(arguments.regions);
   }
   for (const std::string& run : arguments.runs) {
-    evaluation.runs.push_back(doing("evaluating " + run, [&] {
+    evaluation.runs.push_back(io::doing("evaluating " + run, [&] {
       return eval::evaluate_run(run, evaluation.truth, arguments.options);
     }));
   }

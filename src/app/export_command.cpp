@@ -7,9 +7,9 @@
 #include <memory>
 #include <string>
 
-#include "app/doing.hpp"
 #include "app/interruption.hpp"
 #include "app/results.hpp"
+#include "io/file/doing.hpp"
 #include "io/file/pending_files.hpp"
 #include "io/result/map_cloud.hpp"
 #include "io/result/map_files.hpp"
@@ -37,11 +37,12 @@ void write_image(const VoxelMap& map, const Eigen::Vector3d& origin, const std::
 }
 
 void write_export(const ExportArguments& arguments) {
-  doing("making way for " + arguments.out, [&] { remove_leftovers(arguments.out); });
+  io::doing("making way for " + arguments.out, [&] { remove_leftovers(arguments.out); });
   const Eigen::Vector3d origin = io::read_origin(arguments.map);
-  const VoxelMap map = doing("loading " + arguments.map, [&] { return load_map(arguments.map); });
+  const VoxelMap map =
+      io::doing("loading " + arguments.map, [&] { return load_map(arguments.map); });
   const Interruption interruption;
-  doing("writing " + arguments.out, [&] {
+  io::doing("writing " + arguments.out, [&] {
     if (is_image(arguments.out)) {
       write_image(map, origin, arguments.out);
     } else {

@@ -9,7 +9,7 @@
 #include <memory>
 #include <string>
 
-#include "app/doing.hpp"
+#include "io/file/doing.hpp"
 #include "io/result/map_origin.hpp"
 #include "nvm/map/serialization.hpp"
 #include "nvm/map/sighting.hpp"
@@ -19,7 +19,7 @@ namespace nvm::app {
 namespace {
 
 void print_info(const std::string& path) {
-  const VoxelMap map = doing("loading " + path, [&] { return load_map(path); });
+  const VoxelMap map = io::doing("loading " + path, [&] { return load_map(path); });
   const Eigen::Vector3d origin = io::read_origin(path);
   const MapOptions& options = map.options();
   const MapStats stats = map.stats();
@@ -42,7 +42,8 @@ void print_info(const std::string& path) {
     }
   });
   fmt::print(
-      "memory            {:.1f} MB\n", static_cast<double>(stats.memory_bytes) / kBytesPerMegabyte);
+      "memory            {:.1f} MB\n",
+      static_cast<double>(stats.memory_bytes) / io::kBytesPerMegabyte);
   if (!bounds.isEmpty()) {
     fmt::print(
         "bounds            {:.2f} {:.2f} {:.2f} to {:.2f} {:.2f} {:.2f} m\n",

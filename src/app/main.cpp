@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "app/doing.hpp"
 #include "app/evaluate_command.hpp"
 #include "app/export_command.hpp"
 #include "app/failure.hpp"
@@ -23,6 +22,7 @@
 #include "app/walls_command.hpp"
 #include "common/kept_memory.hpp"
 #include "config/nearest_name.hpp"
+#include "io/file/doing.hpp"
 #include "nvm/version.hpp"
 
 namespace {
@@ -125,7 +125,7 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file that gets too large is an error like a full disk
   nvm::app::say_when_interrupted();
   try {
-    return nvm::app::doing("working", [&] { return run(argc, argv); });
+    return nvm::io::doing("working", [&] { return run(argc, argv); });
   } catch (const nvm::app::Failure& failure) {
     return report(failure.what(), failure.status());
   } catch (const std::exception& error) {

@@ -13,13 +13,13 @@
 #include <string>
 #include <vector>
 
-#include "app/doing.hpp"
 #include "app/failure.hpp"
 #include "app/map_builder.hpp"
 #include "app/results.hpp"
 #include "app/run_options.hpp"
 #include "app/say.hpp"
 #include "eval/trajectory/association.hpp"
+#include "io/file/doing.hpp"
 #include "io/file/file.hpp"
 #include "io/result/map_origin.hpp"
 #include "io/sequence/sequence_reader.hpp"
@@ -127,7 +127,7 @@ void build_map(
     io::SequenceReader& reader,
     const RunOptions& options) {
   const Eigen::Vector3d origin = io::choose_origin(poses);
-  MapBuilder builder = doing(making_map(options.pipeline.map), [&] {
+  MapBuilder builder = io::doing(making_map(options.pipeline.map), [&] {
     return MapBuilder(options.pipeline, io::moved(poses, -origin));
   });
   const Interruption interruption;
@@ -167,7 +167,7 @@ void read_and_build(const MapArguments& arguments, RunOptions& options) {
   check_apart(name_of(arguments.input, reader->info()), arguments.folder);
   options.pipeline.inertial.T_imu_lidar = lidar_extrinsic(options, reader->info());
   const Trajectory poses =
-      doing("reading " + arguments.poses, [&] { return read_poses(arguments, options.input); });
+      io::doing("reading " + arguments.poses, [&] { return read_poses(arguments, options.input); });
   build_map(arguments, poses, *reader, options);
 }
 

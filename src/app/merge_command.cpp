@@ -14,10 +14,10 @@
 #include <utility>
 #include <vector>
 
-#include "app/doing.hpp"
 #include "app/given_pose.hpp"
 #include "app/interruption.hpp"
 #include "app/results.hpp"
+#include "io/file/doing.hpp"
 #include "io/file/file.hpp"
 #include "io/file/pending_files.hpp"
 #include "io/result/map_files.hpp"
@@ -107,15 +107,15 @@ void merge_folders(const MergeArguments& arguments) {
     guesses.push_back(guess_from(guess));
   }
   const Executor executor(arguments.threads);
-  doing("making way for " + arguments.out, [&] { check(arguments); });
+  io::doing("making way for " + arguments.out, [&] { check(arguments); });
   const std::vector<merge::Session> sessions =
-      doing("loading the runs", [&] { return merge::read_sessions(arguments.folders); });
+      io::doing("loading the runs", [&] { return merge::read_sessions(arguments.folders); });
   merge::Merged merged =
-      doing("merging", [&] { return merge::merge_sessions(sessions, guesses, executor); });
+      io::doing("merging", [&] { return merge::merge_sessions(sessions, guesses, executor); });
   const Interruption interruption;
   const Eigen::Vector3d& origin = sessions.front().origin;
   const auto map = lio::continued_map(std::move(merged.map), true);
-  doing("writing " + arguments.out, [&] { write(*map, origin, arguments.out); });
+  io::doing("writing " + arguments.out, [&] { write(*map, origin, arguments.out); });
   for (std::size_t i = 1; i < sessions.size(); ++i) {
     print_fit(sessions[i].name, merged.fits[i], origin);
   }

@@ -10,9 +10,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "app/doing.hpp"
 #include "app/given_pose.hpp"
 #include "app/say.hpp"
+#include "io/file/doing.hpp"
 #include "io/file/file.hpp"
 #include "io/result/map_origin.hpp"
 #include "lio/pipeline/prior_pipeline.hpp"
@@ -109,7 +109,7 @@ Eigen::Vector3d origin_of(const PriorArguments& arguments) {
 
 std::unique_ptr<lio::Pipeline> make_prior_pipeline(
     const PriorArguments& arguments, const lio::PipelineOptions& options) {
-  return doing("loading " + arguments.map, [&] {
+  return io::doing("loading " + arguments.map, [&] {
     VoxelMap map = load_map(arguments.map);
     const std::string text = differences(map.options(), options.map);
     if (!text.empty()) {

@@ -9,10 +9,10 @@
 #include <optional>
 #include <system_error>
 
-#include "app/doing.hpp"
 #include "app/failure.hpp"
 #include "app/progress_bar.hpp"
 #include "app/say.hpp"
+#include "io/file/doing.hpp"
 #include "io/file/file.hpp"
 #include "io/file/pending_path.hpp"
 #include "io/result/map_files.hpp"
@@ -64,7 +64,7 @@ Ending use_scans(
   std::size_t scans = 0;
   try {
     while (interruption.signal() == 0) {
-      const bool is_used = doing(fmt::format("working on scan {}", ++scans), [&] {
+      const bool is_used = io::doing(fmt::format("working on scan {}", ++scans), [&] {
         const std::optional<Scan> scan = reader.next_scan();
         if (scan) {
           progress.step(use(*scan));
@@ -105,7 +105,7 @@ void write_map(
   }
   const std::string stem = results.path() + "/map";
   attempt({stem + ".ply", stem + ".nvm"}, ending, [&] {
-    doing("writing the map", [&] {
+    io::doing("writing the map", [&] {
       io::write_map_files(map, origin, stem);
       if (!origin.isZero(0.0)) {
         io::write_origin(stem + ".nvm", origin);

@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "app/change_recorder.hpp"
-#include "app/doing.hpp"
 #include "app/prior_options.hpp"
 #include "app/results.hpp"
 #include "app/run_files.hpp"
@@ -23,6 +22,7 @@
 #include "app/run_verdict.hpp"
 #include "app/say.hpp"
 #include "app/session_recorder.hpp"
+#include "io/file/doing.hpp"
 #include "io/sequence/sequence_reader.hpp"
 #include "lio/pipeline/pipeline_options.hpp"
 
@@ -46,7 +46,7 @@ std::unique_ptr<lio::Pipeline> make_pipeline(
   if (!prior.map.empty()) {
     return make_prior_pipeline(prior, pipeline);
   }
-  return doing(making_map(pipeline.map), [&] { return lio::make_pipeline(pipeline); });
+  return io::doing(making_map(pipeline.map), [&] { return lio::make_pipeline(pipeline); });
 }
 
 using ScanProcess = std::function<lio::FrameResult(const Scan&)>;

@@ -6,9 +6,9 @@
 
 #include <CLI/CLI.hpp>
 
-#include "app/doing.hpp"
 #include "app/say.hpp"
 #include "config/schema.hpp"
+#include "io/file/doing.hpp"
 #include "io/sequence/sequence_options.hpp"
 #include "nvm/map/storage/map_capacity.hpp"
 
@@ -42,7 +42,7 @@ std::optional<RunOptions> read_run_options(const RunOptionArguments& arguments) 
 
 std::unique_ptr<io::SequenceReader> open_input(
     const std::string& input, const io::SequenceOptions& options) {
-  return doing("opening " + input, [&] { return io::open_sequence(input, options); });
+  return io::doing("opening " + input, [&] { return io::open_sequence(input, options); });
 }
 
 std::string name_of(const std::string& input, const io::SequenceInfo& info) {
@@ -53,7 +53,7 @@ std::string making_map(const MapOptions& options) {
   return fmt::format(
       "making a map of map.capacity={} voxels, for which it needs {:.0f} MB",
       options.capacity,
-      static_cast<double>(detail::map_capacity(options).bytes()) / kBytesPerMegabyte);
+      static_cast<double>(detail::map_capacity(options).bytes()) / io::kBytesPerMegabyte);
 }
 
 Pose lidar_extrinsic(const RunOptions& options, const io::SequenceInfo& info) {

@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "app/doing.hpp"
 #include "app/interruption.hpp"
 #include "app/results.hpp"
 #include "config/schema.hpp"
+#include "io/file/doing.hpp"
 #include "sim/scene_file.hpp"
 #include "sim/sensor_model.hpp"
 #include "sim/simulation.hpp"
@@ -52,7 +52,7 @@ void simulate(const SimulateArguments& arguments, const sim::SimulationOptions& 
   }
   const sim::Scene scene = sim::load_scene(arguments.scene);
   const Interruption interruption;
-  doing("making way for " + arguments.folder, [&] { remove_leftovers(arguments.folder); });
+  io::doing("making way for " + arguments.folder, [&] { remove_leftovers(arguments.folder); });
   const auto summary = sim::simulate(scene, options, arguments.folder, [&] {
     interruption.check("nothing is left in " + arguments.folder);
   });

@@ -12,9 +12,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "app/doing.hpp"
 #include "app/interruption.hpp"
 #include "app/say.hpp"
+#include "io/file/doing.hpp"
 #include "io/file/file.hpp"
 #include "io/result/map_cloud.hpp"
 #include "io/result/map_files.hpp"
@@ -135,8 +135,8 @@ void say_notes(const survey::Survey& found, const io::MapCloud& cloud, double pl
 void list_walls(const WallsArguments& arguments) {
   arguments.options.validate();
   const std::string map = map_in(arguments.map);
-  const io::MapCloud cloud = doing("loading " + map, [&] { return read_map(map); });
-  const survey::Survey found = doing("looking for walls", [&] {
+  const io::MapCloud cloud = io::doing("loading " + map, [&] { return read_map(map); });
+  const survey::Survey found = io::doing("looking for walls", [&] {
     try {
       return survey::survey_walls(cloud, arguments.options, keyframes_of(map));
     } catch (const std::invalid_argument& error) {
@@ -148,7 +148,7 @@ void list_walls(const WallsArguments& arguments) {
   }
   say_notes(found, cloud, arguments.options.plan_height);
   const Interruption interruption;
-  doing("writing " + arguments.folder, [&] {
+  io::doing("writing " + arguments.folder, [&] {
     survey::write_survey(found, arguments.options.plan_height, arguments.folder);
   });
   print_summary(found, arguments.folder);

@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "io/file/doing.hpp"
 #include "io/file/file.hpp"
 #include "io/message/message_sequence.hpp"
 
@@ -20,6 +21,8 @@ namespace nvm::io {
 namespace {
 
 constexpr const char* kIsOther = "is a pipe, but not of nvm messages of version 1";
+constexpr const char* kEndsEarly = "ended before its last message: whoever read it stopped";
+constexpr unsigned kMebibyte = 20;            // bits
 constexpr std::size_t kMaxHead = 1U << 20;    // [bytes]
 constexpr std::uint32_t kMaxSize = 1U << 28;  // [bytes] of a message
 constexpr std::size_t kMaxAhead = 1U << 29;   // [bytes] read to see the first of a topic
@@ -113,7 +116,14 @@ class MessagePipe : public MessageSource {
 
   void get(char* to, std::size_t size) {
     if (!stream_.read(to, static_cast<std::streamsize>(size))) {
-      fail(source_, "ended before its last message: whoever read it stopped");
+      fail(source_, kEndsEarly);
+    }
+  }
+
+  void skip(std::uint32_t size) {
+    stream_.ignore(size);
+    if (stream_.gcount() != size) {
+      fail(source_, kEndsEarly);
     }
   }
 
@@ -129,11 +139,21 @@ class MessagePipe : public MessageSource {
     RecordedMessage message;
     message.record_time = get<double>();
     const auto size = get<std::uint32_t>();
-    if (topic >= topics_.size() || size > kMaxSize) {
+    if (topic >= topics_.size()) {
       fail(source_, fmt::format("sent a message of topic {} with {} bytes", topic, size));
     }
     message.topic = topics_[topic].name;
     message.type = topics_[topic].type;
+    if (size > kMaxSize) {
+      skip(size);
+      message.problem = fmt::format(
+          "has {} MiB, more than the {} that are read of one: if it is a map, name a topic of "
+          "scans "
+          "(input.lidar_topic)",
+          size >> kMebibyte,
+          kMaxSize >> kMebibyte);
+      return message;
+    }
     message.bytes.resize(size);
     get(message.bytes.data(), size);
     return message;
@@ -153,7 +173,8 @@ std::unique_ptr<SequenceReader> open_message_pipe(
     const std::string& path, const SequenceOptions& options) {
   auto pipe = std::make_unique<MessagePipe>(path);
   const std::string source = pipe->recording();
-  return read_messages(source, std::move(pipe), options);
+  return doing(
+      "opening " + source, [&] { return read_messages(source, std::move(pipe), options); });
 }
 
 }  // namespace nvm::io

@@ -32,7 +32,11 @@ class MessageSequence : public SequenceReader {
     try {
       open(options);
     } catch (const std::runtime_error& error) {
-      fail(path, error.what());
+      const std::string problem = error.what();
+      if (problem.rfind(path + ": ", 0) == 0) {
+        throw;  // of a source that has named it
+      }
+      fail(path, problem);
     }
   }
 

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace nvm::app {
+namespace nvm::io {
 
 /// What sizes are printed in.
 constexpr double kBytesPerMegabyte = 1e6;
@@ -31,4 +31,4 @@ auto doing(const std::string& what, const Action& action) {
   }
 }
 
-}  // namespace nvm::app
+}  // namespace nvm::io

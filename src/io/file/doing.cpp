@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
-#include "app/doing.hpp"
+#include "io/file/doing.hpp"
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace nvm::app {
+namespace nvm::io {
 
 namespace {
 
@@ -53,4 +53,4 @@ std::string file_trouble(const std::string& what, const std::filesystem::filesys
       error.code().message());
 }
 
-}  // namespace nvm::app
+}  // namespace nvm::io
