@@ -24,7 +24,7 @@ from ._nvm import (
     load,
     view_directions,
 )
-from .commands import evaluate, simulate
+from .commands import evaluate, export, simulate
 from .store import Store, open_store
 from .walls import survey
 
@@ -44,6 +44,7 @@ __all__ = [
     "__version__",
     "estimate_normals",
     "evaluate",
+    "export",
     "load",
     "open_store",
     "simulate",

@@ -62,9 +62,19 @@ PROGRAM_COMMANDS = {
 }
 
 
+def is_evaluation(path: str) -> bool:
+    return os.path.exists(os.path.join(path, "evaluation.json"))
+
+
 def view(arguments) -> None:
     """Shows finished results."""
-    from .results import read_results
+    from .results import read_evaluation, read_results
+
+    if is_evaluation(arguments.path):
+        from .evaluation_viewer import show_evaluation
+
+        show_evaluation(*read_evaluation(arguments.path), arguments.record)
+        return
     from .viewer import RunLog, open_stream
 
     results = read_results(arguments.path)
@@ -83,7 +93,7 @@ def plot(arguments) -> None:
         raise RuntimeError(NO_PICTURES) from error
     from .results import read_results, read_trajectory
 
-    if os.path.exists(os.path.join(arguments.path, "evaluation.json")):
+    if is_evaluation(arguments.path):
         print(*write_report(arguments.path), sep="\n")
         return
     results = read_results(arguments.path)
@@ -162,7 +172,7 @@ def run_watched(argv: list[str]) -> int:
     from .viewer import RunFollower, open_stream
 
     with RunFollower(folder, open_stream(watching.record)) as follower:
-        return run_program([*rest, "--stream", f"/dev/fd/{follower.sink}"], keeps=(follower.sink,))
+        return run_program([rest[0], "--stream", f"/dev/fd/{follower.sink}", *rest[1:]], keeps=(follower.sink,))
 
 
 def parser() -> argparse.ArgumentParser:
@@ -173,12 +183,12 @@ def parser() -> argparse.ArgumentParser:
     command.add_argument("path", help="a bag of ROS 1 or ROS 2, a map.nvm file, or a tile store or its URL")
     command.add_argument("--check", action="store_true", help="read every tile of a store")
     command.set_defaults(run=info)
-    command = commands.add_parser("view", help="show the results of a run in rerun")
-    command.add_argument("path", help="a folder of nvm run or nvm map, a map.nvm or a TUM file")
+    command = commands.add_parser("view", help="show the results of a run or an evaluation in rerun")
+    command.add_argument("path", help="a folder of nvm run, nvm map or nvm evaluate, a map.nvm or a TUM file")
     command.add_argument("--record", metavar="FILE", help="write an .rrd file instead")
     command.set_defaults(run=view)
     command = commands.add_parser("plot", help="draw the results of a run, or the report of an evaluation")
-    command.add_argument("path", help="as for view, or a folder of nvm evaluate")
+    command.add_argument("path", help="as for view")
     command.add_argument("--out", metavar="FOLDER", help="of the pictures; default: plots beside them")
     command.add_argument("--truth", metavar="FILE", help="TUM file, for the errors")
     command.set_defaults(run=plot)
@@ -204,6 +214,9 @@ def main(argv: list[str] | None = None) -> int:
         arguments.run(arguments)
     except KeyboardInterrupt:
         return 130
+    except MemoryError:
+        print(f"nvm: memory ran out in nvm {' '.join(argv)}", file=sys.stderr)
+        return 1
     except (BagError, ValueError, RuntimeError, OSError) as error:
         message = str(error)
         print(message if message.startswith("nvm: ") else f"nvm: {message}", file=sys.stderr)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 The nvm authors
-"""Commands of the C++ program as functions: ``nvm simulate`` and ``nvm evaluate``."""
+"""Commands of the C++ program as functions: ``nvm export``, ``nvm simulate`` and ``nvm evaluate``."""
 
 from __future__ import annotations
 
@@ -9,7 +9,9 @@ import json
 import os
 import pathlib
 import subprocess
+import tempfile
 
+from ._nvm import VoxelMap
 from .program import find_program
 
 
@@ -23,6 +25,36 @@ def call(*arguments) -> None:
 
 def str_or_path(argument):
     return argument if isinstance(argument, os.PathLike) else str(argument)
+
+
+def export(voxel_map, out) -> pathlib.Path:
+    """Write a map as points with normals and sides, for CloudCompare, MeshLab, PCL and others.
+
+    Parameters
+    ----------
+    voxel_map : VoxelMap or path
+        A map, or a file of one: that of ``nvm run`` lies where ``map_origin.txt`` beside it says.
+    out : path
+        A ``.ply`` or ``.pcd`` file, or a ``.image``, which `load` has in milliseconds and programs share.
+
+    Returns
+    -------
+    pathlib.Path
+        `out`.
+
+    Raises
+    ------
+    RuntimeError
+        With what the program says.
+    """
+    with contextlib.ExitStack() as files:
+        if isinstance(voxel_map, VoxelMap):
+            folder = files.enter_context(tempfile.TemporaryDirectory(prefix="nvm-export-"))
+            saved = pathlib.Path(folder) / "map.nvm"
+            voxel_map.save(saved)
+            voxel_map = saved
+        call("export", voxel_map, "--out", out)
+    return pathlib.Path(out)
 
 
 def simulate(scene, out, *, sensor="mid360", seed=1, duration=0.0, settings=None) -> pathlib.Path:

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 The nvm authors
-"""What ``nvm run`` and ``nvm map`` leave in a folder, as arrays."""
+"""What ``nvm run``, ``nvm map`` and ``nvm evaluate`` leave in a folder."""
 
 from __future__ import annotations
 
 import csv
 import dataclasses
+import json
 import pathlib
 
 import numpy as np
@@ -89,6 +90,8 @@ def read_results(path) -> Results:
         if path.suffix == ".nvm":
             return Results(path, cloud=read_cloud(path))
         return Results(path, trajectory=read_trajectory(path))
+    if not path.exists():
+        raise ResultError(f"{path}: does not exist")
     results = Results(path)
     readers = {
         "trajectory": ("trajectory.tum", read_trajectory),
@@ -101,6 +104,15 @@ def read_results(path) -> Results:
     if results.trajectory is None and results.cloud is None:
         raise ResultError(f"{path}: has neither trajectory.tum nor map.nvm: give a folder of nvm run")
     return results
+
+
+def read_evaluation(path) -> tuple[dict, dict]:
+    """Reads evaluation.json and drawing.json of a folder of ``nvm evaluate``."""
+    files = [pathlib.Path(path) / name for name in ("evaluation.json", "drawing.json")]
+    try:
+        return tuple(json.loads(file.read_text(encoding="utf-8")) for file in files)
+    except (OSError, ValueError) as error:
+        raise ResultError(f"{path}: is no whole folder of nvm evaluate: {error}") from error
 
 
 def thinned(cloud: Cloud, keep=None) -> Cloud:

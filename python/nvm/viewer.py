@@ -22,14 +22,9 @@ ARROW = 1.0  # [m]
 STATUS_LEVELS = ("skipped", "lost", "weak", "initializing", "degenerate", "tracking")
 
 
-def open_stream(recording=None):
-    """A stream of rerun's: into the file `recording`, or else into a viewer that it starts."""
-    try:
-        import rerun as rr
-        import rerun.blueprint as rrb
-    except ImportError as error:
-        raise RuntimeError("to look at runs takes rerun: pip install rerun-sdk") from error
-    views = rrb.Horizontal(
+def views_of_a_run(rrb):
+    """What is beside what, made with rerun.blueprint."""
+    return rrb.Horizontal(
         rrb.Spatial3DView(origin="world"),
         rrb.Vertical(
             rrb.TimeSeriesView(origin="status"),
@@ -38,11 +33,20 @@ def open_stream(recording=None):
         ),
         column_shares=(3, 1),
     )
+
+
+def open_stream(recording=None, views=views_of_a_run):
+    """A stream of rerun's: into the file `recording`, or else into a viewer that it starts."""
+    try:
+        import rerun as rr
+        import rerun.blueprint as rrb
+    except ImportError as error:
+        raise RuntimeError("to look at runs takes rerun: pip install rerun-sdk") from error
     stream = rr.RecordingStream("nvm")
     if recording is None:
-        stream.spawn(default_blueprint=views)
+        stream.spawn(default_blueprint=views(rrb))
     else:
-        stream.save(recording, default_blueprint=views)
+        stream.save(recording, default_blueprint=views(rrb))
     stream.log("world", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
     return stream
 

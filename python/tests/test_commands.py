@@ -12,9 +12,9 @@ import time
 import numpy as np
 import pytest
 from sequences import WALL, scan, write_sequence, write_truth
-from support import nvm
+from support import nvm, wall
 
-from nvm import load
+from nvm import VoxelMap, export, load
 
 COMMANDS = ("run", "map", "merge", "walls", "export", "evaluate")
 
@@ -134,6 +134,22 @@ def test_map_from_poses_and_export(tmp_path, rng):
     np.testing.assert_allclose(np.abs(wall[:, 1]), WALL[1, 1], atol=0.02)
     done("export", tmp_path / "out" / "map.nvm", "--out", tmp_path / "map.pcd")
     assert (tmp_path / "map.pcd").stat().st_size > 10_000
+
+
+def test_maps_and_files_of_them_are_exported(tmp_path, rng):
+    voxel_map = VoxelMap()
+    voxel_map.insert(*wall(rng, 500, 1.0, -1.0))
+    voxel_map.save(tmp_path / "map.nvm")
+    written = export(voxel_map, tmp_path / "of_map.ply")
+    assert written == tmp_path / "of_map.ply" and f"element vertex {len(voxel_map)}\n".encode() in written.read_bytes()
+    assert export(str(tmp_path / "map.nvm"), tmp_path / "of_file.ply").read_bytes() == written.read_bytes()
+    assert np.array_equal(load(export(voxel_map, tmp_path / "map.image")).points, voxel_map.points)
+    (tmp_path / "map_origin.txt").write_text("# x y z\n1000 0 0\n")
+    assert export(tmp_path / "map.nvm", tmp_path / "far.ply").read_bytes() != written.read_bytes()
+    with pytest.raises(RuntimeError, match="missing.nvm"):
+        export(tmp_path / "missing.nvm", tmp_path / "no.ply")
+    with pytest.raises(RuntimeError, match="map.txt"):
+        export(voxel_map, tmp_path / "map.txt")
 
 
 def write_ply(path, points):

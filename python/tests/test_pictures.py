@@ -57,6 +57,8 @@ def test_what_is_no_result_is_named(tmp_path):
     (tmp_path / "poses.txt").write_text("1 2 3\n")
     with pytest.raises(ResultError, match="8 numbers a line"):
         read_trajectory(tmp_path / "poses.txt")
+    with pytest.raises(ResultError, match="none: does not exist"):
+        read_results(tmp_path / "none")
     assert main(["plot", str(tmp_path)]) == 1
     assert main(["plot", str(tmp_path / "none")]) == 1
 

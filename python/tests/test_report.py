@@ -16,6 +16,7 @@ pytest.importorskip("matplotlib")
 from sequences import write_sequence
 from support import nvm
 
+from nvm.cli import main
 from nvm.report import file_name, write_report
 from nvm.report.charts import drawn
 
@@ -188,6 +189,31 @@ def test_the_command_evaluates_and_draws(tmp_path, rng):
     (tmp_path / "report" / "report.html").unlink()
     assert nvm("plot", tmp_path / "report").returncode == 0
     assert (tmp_path / "report" / "report.html").is_file()
+
+
+def test_an_evaluation_becomes_a_recording(folder, tmp_path):
+    rerun = pytest.importorskip("rerun")
+    assert main(["view", str(folder), "--record", str(tmp_path / "seen.rrd")]) == 0
+    data = (tmp_path / "seen.rrd").read_bytes()
+    parts = ["/world/truth/path", "/world/truth/walls", "/world/runs/mine", "/errors/bare", "/walls/0/mine", "/walls/1/mine"]
+    other = rerun.escape_entity_path_part("<b>other</b>")
+    for entity in (*parts, "/walls/0/true faces".replace(" ", "\\ "), f"/world/runs/{other}", f"/walls/1/{other}"):
+        assert entity.encode() in data, entity
+    assert b"/walls/2" not in data and f"/walls/0/{other}".encode() not in data  # hidden, and not found
+    (folder / "drawing.json").write_text('{"truth": null}')
+    assert main(["view", str(folder), "--record", str(tmp_path / "old.rrd")]) == 1
+
+
+def test_an_evaluation_without_a_truth_becomes_one_too(folder, tmp_path):
+    pytest.importorskip("rerun")
+    drawing = json.loads((folder / "drawing.json").read_text())
+    drawing["truth"] = None
+    for drawn_of in drawing["runs"]:
+        drawn_of["path"] = drawn_of["errors"] = None
+    (folder / "drawing.json").write_text(json.dumps(drawing))
+    assert main(["view", str(folder), "--record", str(tmp_path / "seen.rrd")]) == 0
+    data = (tmp_path / "seen.rrd").read_bytes()
+    assert b"/walls/0/mine" in data and b"/world/truth" not in data and b"/errors" not in data
 
 
 def test_names_become_file_names():
