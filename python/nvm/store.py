@@ -39,7 +39,10 @@ def bytes_of(voxel_map: VoxelMap) -> bytes:
 def map_of(data: bytes) -> VoxelMap:
     """What `load` would read. RuntimeError when `data` are no map."""
     voxel_map = VoxelMap.__new__(VoxelMap)
-    voxel_map.__setstate__(data)
+    try:
+        voxel_map.__setstate__(data)
+    except ValueError as error:
+        raise RuntimeError(str(error)) from error
     return voxel_map
 
 

@@ -17,13 +17,7 @@ std::string text_of(nb::handle object) { return nb::str(object).c_str(); }
 
 /// `object` as a numpy array of float32 or float64 in this machine's byte order.
 nb::object as_float_array(nb::handle object, const char* name) {
-  const nb::module_ numpy = nb::module_::import_("numpy");
-  nb::object array;
-  try {
-    array = numpy.attr("asarray")(object);
-  } catch (const nb::python_error& error) {
-    refuse(name, "is no array of numbers: " + text_of(error.value()));
-  }
+  const nb::object array = as_array(object, name);
   const nb::object dtype = array.attr("dtype");
   const std::string kind = text_of(dtype.attr("kind"));
   const std::string code = text_of(dtype.attr("char"));
@@ -35,6 +29,18 @@ nb::object as_float_array(nb::handle object, const char* name) {
 }
 
 }  // namespace
+
+nb::object as_array(nb::handle object, const char* name) {
+  const nb::module_ numpy = nb::module_::import_("numpy");
+  if (nb::hasattr(object, "mask") && nb::cast<bool>(numpy.attr("ma").attr("is_masked")(object))) {
+    refuse(name, "has masked elements: leave their rows out, or fill them with NaN");
+  }
+  try {
+    return numpy.attr("asarray")(object);
+  } catch (const nb::python_error& error) {
+    refuse(name, "is no array of numbers: " + text_of(error.value()));
+  }
+}
 
 ArrayView::ArrayView(nb::handle object, const char* name, int dimensions) {
   const nb::object array = as_float_array(object, name);
@@ -98,17 +104,11 @@ Pose pose_from(nb::handle object, const char* name) {
   if (object.is_none()) {
     return pose;
   }
-  nb::object flat;
-  try {
-    const nb::object array = nb::module_::import_("numpy").attr("asarray")(object);
-    if (text_of(array.attr("shape")) != "(4, 4)") {
-      refuse(name, "must have the shape (4, 4), not " + text_of(array.attr("shape")));
-    }
-    flat = array.attr("reshape")(16);
-  } catch (const nb::python_error& error) {
-    refuse(name, "is no array of numbers: " + text_of(error.value()));
+  const nb::object array = as_array(object, name);
+  if (text_of(array.attr("shape")) != "(4, 4)") {
+    refuse(name, "must have the shape (4, 4), not " + text_of(array.attr("shape")));
   }
-  const Numbers numbers(flat, name);
+  const Numbers numbers(array.attr("reshape")(16), name);
   Eigen::Matrix4d matrix;
   for (int i = 0; i < 16; ++i) {
     matrix(i / 4, i % 4) = numbers[static_cast<std::size_t>(i)];

@@ -21,6 +21,10 @@ namespace nvm::python {
 
 namespace nb = nanobind;
 
+/// Whatever numpy makes of `object`. Throws ValueError, naming it `name`, for what is no array, and
+/// for masked elements, whose mask numpy would drop.
+nb::object as_array(nb::handle object, const char* name);
+
 /// An array of float32 or float64 with any strides, negative ones too, read where it lies. Whatever
 /// else numpy can make an array of numbers of is converted first. Construct and destroy it with the
 /// GIL held; it may be read without.

@@ -8,6 +8,7 @@ namespace nvm::python {
 
 // Each adds its part to the module.
 void bind_voxel_map(nanobind::module_& module);
+void bind_map_stats(nanobind::module_& module);
 void bind_normals(nanobind::module_& module);
 void bind_odometry(nanobind::module_& module);
 void bind_registration(nanobind::module_& module);

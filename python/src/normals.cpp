@@ -106,7 +106,7 @@ NormalResult estimate(
     const std::lock_guard lock(self.mutex);
     return self.estimator.estimate(positions, viewpoints, executor);
   };
-  const nb::object array = nb::module_::import_("numpy").attr("asarray")(viewpoint);
+  const nb::object array = as_array(viewpoint, "viewpoint");
   if (nb::cast<int>(array.attr("ndim")) != 2) {
     return run(vector_from(array, "viewpoint"));
   }

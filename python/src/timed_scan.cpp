@@ -70,17 +70,16 @@ TimedPoint timed_point(const GivenPoint& given, double dt) {
 
 /// An array of as many times as there are points, of a number or an array.
 nb::object expanded(nb::handle times, const Vectors& points) {
-  const nb::module_ numpy = nb::module_::import_("numpy");
-  const nb::object array = numpy.attr("asarray")(times);
+  nb::object array = as_array(times, "times");
   if (nb::cast<int>(array.attr("ndim")) != 0) {
     return array;
   }
-  return numpy.attr("full")(points.size(), finite_number(times, "times"));
+  return nb::module_::import_("numpy").attr("full")(points.size(), finite_number(times, "times"));
 }
 
 /// As a batch: the rows of `object`, or itself as the only one.
-nb::object rows_of(nb::handle object, bool is_single) {
-  const nb::object array = nb::module_::import_("numpy").attr("asarray")(object);
+nb::object rows_of(nb::handle object, const char* name, bool is_single) {
+  const nb::object array = as_array(object, name);
   return is_single ? nb::object(array.attr("reshape")(1, -1)) : array;
 }
 
@@ -130,11 +129,11 @@ Scan timed_scan(
 }
 
 std::vector<ImuSample> imu_samples(nb::handle times, nb::handle gyro, nb::handle accel) {
-  const nb::object array = nb::module_::import_("numpy").attr("asarray")(times);
+  const nb::object array = as_array(times, "times");
   const bool is_single = nb::cast<int>(array.attr("ndim")) == 0;
   const Numbers stamps(is_single ? nb::object(array.attr("reshape")(1)) : array, "times");
-  const Vectors rates(rows_of(gyro, is_single), "gyro");
-  const Vectors forces(rows_of(accel, is_single), "accel");
+  const Vectors rates(rows_of(gyro, "gyro", is_single), "gyro");
+  const Vectors forces(rows_of(accel, "accel", is_single), "accel");
   require_same_size(rates.size(), "gyro", stamps.size(), "times");
   require_same_size(forces.size(), "accel", stamps.size(), "times");
   require_fine(stamps);

@@ -145,26 +145,6 @@ std::string described(const SharedMap& self) {
          " of them with two sides>";
 }
 
-void bind_stats(nb::module_& module) {
-  nb::class_<InsertStats>(module, "InsertStats", kInsertStatsDoc)
-      .def_ro("stored", &InsertStats::stored)
-      .def_ro("too_close", &InsertStats::too_close)
-      .def_ro("surface_full", &InsertStats::surface_full)
-      .def_ro("no_normal", &InsertStats::no_normal)
-      .def_ro("non_finite", &InsertStats::non_finite)
-      .def_ro("out_of_range", &InsertStats::out_of_range)
-      .def_ro("map_full", &InsertStats::map_full)
-      .def_ro("new_voxels", &InsertStats::new_voxels)
-      .def_ro("evicted_voxels", &InsertStats::evicted_voxels)
-      .def_ro("evicted_points", &InsertStats::evicted_points);
-  nb::class_<MapStats>(module, "MapStats", "What a map holds.")
-      .def_ro("points", &MapStats::points)
-      .def_ro("voxels", &MapStats::voxels)
-      .def_ro("two_sided_voxels", &MapStats::two_sided_voxels)
-      .def_ro("surfaces", &MapStats::surfaces)
-      .def_ro("memory_bytes", &MapStats::memory_bytes);
-}
-
 void bind_erasing(nb::class_<SharedMap>& map) {
   map.def(
          "erase_box",
@@ -246,7 +226,7 @@ void bind_files(nb::class_<SharedMap>& map, nb::module_& module) {
          "path"_a,
          "Write the map to a file, bit by bit. RuntimeError when that fails.")
       .def("__getstate__", &state_of)
-      .def("__setstate__", &restore);
+      .def("__setstate__", &restore, "state"_a.none());
   module.def(
       "load",
       [](nb::handle path) {
@@ -263,7 +243,7 @@ void bind_files(nb::class_<SharedMap>& map, nb::module_& module) {
 }  // namespace
 
 void bind_voxel_map(nb::module_& module) {
-  bind_stats(module);
+  bind_map_stats(module);
   nb::class_<SharedMap> map(module, "VoxelMap", documented<MapOptions>(kVoxelMapDoc));
   map.def(
          "__init__",

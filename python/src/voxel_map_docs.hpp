@@ -105,23 +105,4 @@ Returns
 (K,) int64
     Rows of `points`, `normals` and `sides`, ascending.)";
 
-inline constexpr char kInsertStatsDoc[] = R"(What became of the points of an insertion.
-
-Attributes
-----------
-stored : int
-too_close : int
-    To a point of the same surface (min_point_distance); with max_merged_points they moved it.
-surface_full : int
-    points_per_surface was reached.
-no_normal : int
-    Zero, non-finite or not of unit length.
-non_finite : int
-    A coordinate was NaN or infinite.
-out_of_range : int
-    Beyond +-2**20 voxels.
-map_full : int
-    No room even after evicting every other voxel.
-new_voxels, evicted_voxels, evicted_points : int)";
-
 }  // namespace nvm::python

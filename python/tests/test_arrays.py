@@ -99,6 +99,24 @@ def test_other_arrays_are_refused(points):
         nvm.estimate_normals(points)
 
 
+def test_masked_elements_are_refused_and_masks_without_any_read(cloud):
+    """numpy.asarray drops a mask, and what was struck out would be in the map without a word."""
+    points, normals = cloud
+    voxel_map = nvm.VoxelMap()
+    assert voxel_map.insert(np.ma.array(points), normals).stored > 0
+    struck_out = np.ma.masked_greater(points, 3.0)
+    for call in (
+        lambda: voxel_map.insert(struck_out, normals),
+        lambda: voxel_map.insert(points, np.ma.masked_less(normals, 0.5)),
+        lambda: voxel_map.nearest(struck_out),
+        lambda: nvm.estimate_normals(struck_out),
+    ):
+        with pytest.raises(ValueError, match="has masked elements"):
+            call()
+    filled = voxel_map.insert(np.ma.filled(struck_out, np.nan), normals)
+    assert filled.non_finite == (points > 3.0).any(axis=1).sum() > 0
+
+
 @pytest.mark.parametrize("empty", [[], np.zeros((0, 3)), np.zeros((0, 3), np.float32)], ids=repr)
 def test_empty_arrays_give_empty_results(empty):
     voxel_map = nvm.VoxelMap()

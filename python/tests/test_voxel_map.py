@@ -29,6 +29,14 @@ def test_every_point_is_stored_or_counted(rng):
     assert rest == 998
 
 
+def test_counts_say_what_they_are(rng):
+    voxel_map = nvm.VoxelMap()
+    stats = voxel_map.insert(*wall(rng, 50, 0.1, -1.0))
+    assert f"{stats}".startswith(f"<nvm.InsertStats: stored {stats.stored}, ") and "map_full" not in f"{stats}"
+    assert f"{nvm.VoxelMap().insert([], [])}" == "<nvm.InsertStats>"
+    assert f"{voxel_map.stats()}".startswith(f"<nvm.MapStats: points {len(voxel_map)}, voxels ")
+
+
 def test_contents_are_rows_of_equal_number(rng):
     voxel_map = thin_wall(rng)
     count = len(voxel_map)
@@ -166,8 +174,34 @@ def test_a_bad_file_is_named(tmp_path):
         nvm.load(tmp_path / "missing.nvm")
     with pytest.raises(RuntimeError, match="cannot be written"):
         nvm.VoxelMap().save(tmp_path / "no" / "folder.nvm")
-    with pytest.raises(RuntimeError):
+    with pytest.raises(ValueError, match="the state of a map is not an nvm map"):
         pickle.loads(pickle.dumps(nvm.VoxelMap()).replace(b"NVMMAP", b"NVMMUP"))
+
+
+def test_states_that_are_none_of_a_map_are_refused(rng):
+    good = thin_wall(rng).__getstate__()
+    cut = [good[:size] for size in (*range(40), *rng.integers(40, len(good), 40))]
+    flipped = [bytes(byte ^ (i == place) for i, byte in enumerate(good[:600])) + good[600:] for place in range(0, 600, 7)]
+    others = [None, 3, "map", [good], bytearray(good), {}, (), (good,), (good, None), (good, {}, {}), (good, [])]
+    others += [({}, good), (good, {"points": 1}), (good, {3: 1}), (good[:50], {"floor": 1}), nvm.VoxelMap().stats()]
+    for state in (*cut, *flipped, *others):
+        voxel_map = NamedMap.__new__(NamedMap)
+        with pytest.raises(ValueError, match="^nvm: the state of a map "):
+            voxel_map.__setstate__(state)
+    voxel_map.__setstate__((good, {"floor": 1}))  # after all that failed
+    assert voxel_map.floor == 1 and voxel_map.__getstate__()[0] == good
+    with pytest.raises(TypeError, match="is no VoxelMap"):
+        nvm.VoxelMap.__getstate__(5)
+    with pytest.raises(RuntimeError, match="^nvm: a map has no state"):
+        nvm.VoxelMap.__new__(nvm.VoxelMap).__getstate__()
+
+
+def test_a_map_that_is_there_is_not_made_again(rng):
+    voxel_map = thin_wall(rng)
+    for again in (voxel_map.__init__, lambda: voxel_map.__setstate__(voxel_map.__getstate__())):
+        with pytest.warns(RuntimeWarning, match="already-initialized"), pytest.raises(TypeError):
+            again()
+    assert len(voxel_map) > 0
 
 
 def test_the_number_of_threads_changes_nothing(rng):
