@@ -18,7 +18,7 @@ namespace nvm::io {
 
 namespace {
 
-constexpr int kVersion = 1;
+constexpr int kStoreVersion = 1;
 
 struct Tile {
   std::array<double, 3> index;  ///< in edges of a tile
@@ -40,7 +40,7 @@ Index read_index(const std::string& path) {
   try {
     const nlohmann::json json = nlohmann::json::parse(read_file(path));
     version = json.at("format") == "nvm-store" ? json.at("version").get<int>() : 0;
-    if (version == kVersion) {
+    if (version == kStoreVersion) {
       index.tile_size = json.at("tile_size").get<double>();
       for (const auto& tile : json.at("tiles")) {
         index.tiles.push_back(
@@ -52,10 +52,10 @@ Index read_index(const std::string& path) {
   } catch (const nlohmann::json::exception&) {
     version = 0;
   }
-  if (version > kVersion) {
+  if (version > kStoreVersion) {
     fail(path, "has version " + std::to_string(version) + "; this nvm reads 1");
   }
-  if (version < kVersion || !(index.tile_size > 0.0)) {
+  if (version < kStoreVersion || !(index.tile_size > 0.0)) {
     fail(path, "is not the index of a store, or is damaged");
   }
   return index;
