@@ -255,7 +255,7 @@ TEST_F(MessagePipe, AMessageThatIsTooLargeIsLeftOutAndTheRestRead) {
           reader->info().notes,
           ::testing::Contains(
               ::testing::ContainsRegex("1 clouds are left out; the first: .* at 1000.050000 s has "
-                                       "256 MiB, more than the 256 "
+                                       "257 MiB, more than the 256 "
                                        "that are read of one: .*input.lidar_topic")));
     });
   }

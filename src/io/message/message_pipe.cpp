@@ -150,7 +150,7 @@ class MessagePipe : public MessageSource {
           "has {} MiB, more than the {} that are read of one: if it is a map, name a topic of "
           "scans "
           "(input.lidar_topic)",
-          size >> kMebibyte,
+          (size >> kMebibyte) + 1,
           kMaxSize >> kMebibyte);
       return message;
     }
