@@ -10,17 +10,17 @@ namespace nvm::survey {
 
 namespace {
 
-constexpr double kReach = 0.3;  // [m]; from an edge over cells to where it may belong
+constexpr double kEdgeReach = 0.3;  // [m]; from an edge over cells to where it may belong
 
 double length(const PlanePoint& a, const PlanePoint& b) { return std::hypot(b.u - a.u, b.v - a.v); }
 
-/// True when face `other` shows something within kReach of `p`.
+/// True when face `other` shows something within kEdgeReach of `p`.
 bool is_near(const Face& other, const Eigen::Vector3d& p) {
   const double u = other.frame.coordinate_u(p);
   const double v = other.frame.coordinate_v(p);
-  return std::abs(other.plane.distance(p)) < kReach && u > other.box.min_u - kReach &&
-         u < other.box.max_u + kReach && v > other.box.min_v - kReach &&
-         v < other.box.max_v + kReach;
+  return std::abs(other.plane.distance(p)) < kEdgeReach && u > other.box.min_u - kEdgeReach &&
+         u < other.box.max_u + kEdgeReach && v > other.box.min_v - kEdgeReach &&
+         v < other.box.max_v + kEdgeReach;
 }
 
 }  // namespace
@@ -42,7 +42,7 @@ EdgeSnapper::Surroundings EdgeSnapper::surroundings(std::size_t index) const {
   constexpr double kMaxCosine = 0.87;  // of two planes that cut: 30 degrees
   const Face& face = faces_[index];
   Surroundings result{face, {}, {}};
-  const Eigen::Vector3d reach = Eigen::Vector3d::Constant(2.0 * kReach);
+  const Eigen::Vector3d reach = Eigen::Vector3d::Constant(2.0 * kEdgeReach);
   const Eigen::AlignedBox3d box(boxes_[index].min() - reach, boxes_[index].max() + reach);
   for (std::size_t i = 0; i < faces_.size(); ++i) {
     if (box.intersects(boxes_[i]) &&
@@ -102,7 +102,7 @@ std::vector<EdgeSnapper::Line> EdgeSnapper::cuts_along(
         (cut.a * edge.a + cut.b * edge.b < 0.0 ? -1.0 : 1.0) / std::hypot(cut.a, cut.b);
     cut = {scale * cut.a, scale * cut.b, scale * cut.c, true};
     const double slope = std::abs(cut.a * edge.b - cut.b * edge.a);
-    if (std::abs(cut.a * middle_u + cut.b * middle_v - cut.c) < kReach &&
+    if (std::abs(cut.a * middle_u + cut.b * middle_v - cut.c) < kEdgeReach &&
         slope * std::min(edge_length, 1.0) < kMaxSlope) {
       cuts.push_back(cut);
     }

@@ -14,8 +14,8 @@ namespace nvm::survey {
 
 namespace {
 
-constexpr int kBits = 21;       // of a key, per axis
-constexpr double kReach = 5e4;  // [m]; with the smallest cells, 2^20 of them
+constexpr int kBits = 21;           // of a key, per axis
+constexpr double kGridReach = 5e4;  // [m]; with the smallest cells, 2^20 of them
 
 std::uint64_t key_of(const Eigen::Vector3d& p, double size) {
   std::uint64_t key = 0;
@@ -94,7 +94,7 @@ SurveyCloud survey_cloud(const io::MapCloud& cloud) {
   for (std::size_t i = 0; i < cloud.normals.size(); ++i) {
     const Eigen::Vector3d p = cloud.positions[i] - result.origin;
     const float length = cloud.normals[i].norm();
-    if (p.cwiseAbs().maxCoeff() < kReach && p.allFinite() && length >= kMinLength &&
+    if (p.cwiseAbs().maxCoeff() < kGridReach && p.allFinite() && length >= kMinLength &&
         std::isfinite(length)) {
       result.positions.push_back(p);
       result.normals.push_back(cloud.normals[i] / length);

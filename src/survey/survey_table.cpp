@@ -12,7 +12,7 @@ namespace nvm::survey {
 namespace {
 
 constexpr double kMillimetres = 1e3;
-constexpr double kDegrees = 57.29577951308232;
+constexpr double kDegreesPerRadian = 57.29577951308232;
 
 std::vector<std::string> row_of(const std::string& name, const Wall& wall) {
   std::size_t doors = 0;
@@ -25,7 +25,7 @@ std::vector<std::string> row_of(const std::string& name, const Wall& wall) {
       fmt::format("{:.1f}", kMillimetres * wall.thickness),
       fmt::format("{:.1f}", 1.96 * kMillimetres * wall.thickness_std),
       passes_name(wall.passes),
-      fmt::format("{:.2f}", kDegrees * wall.angle),
+      fmt::format("{:.2f}", kDegreesPerRadian * wall.angle),
       fmt::format("{:.2f}", wall.length),
       fmt::format("{:.2f}", wall.height),
       fmt::format("{:.1f}", wall.area),
@@ -55,7 +55,7 @@ std::string csv_row(const std::string& name, const Wall& wall) {
       wall.thickness,
       wall.thickness_std,
       passes_name(wall.passes),
-      kDegrees * wall.angle,
+      kDegreesPerRadian * wall.angle,
       wall.length,
       wall.height,
       wall.area,

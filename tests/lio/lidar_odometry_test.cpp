@@ -24,7 +24,7 @@ Pose pose(double yaw, const Eigen::Vector3d& position) {
   return result;
 }
 
-LidarOdometryOptions room_options() {
+LidarOdometryOptions lidar_only_options() {
   LidarOdometryOptions options;
   options.normals.min_radius = 0.35;  // the test's scans are sparse
   options.normals.max_radius = 0.5;
@@ -38,7 +38,7 @@ class LidarOdometryTest : public ::testing::Test {
   static constexpr std::size_t kPoints = 6000;
 
   std::unique_ptr<LidarOdometry> odometry(
-      const LidarOdometryOptions& options = room_options(), int threads = 1) const {
+      const LidarOdometryOptions& options = lidar_only_options(), int threads = 1) const {
     MapOptions map;
     map.min_point_distance = 0.05;
     return std::make_unique<LidarOdometry>(
@@ -121,7 +121,7 @@ TEST_F(LidarOdometryTest, DeskewsASweepMadeInMotion) {
 }
 
 TEST_F(LidarOdometryTest, PosesAreThoseOfTheBody) {
-  LidarOdometryOptions options = room_options();
+  LidarOdometryOptions options = lidar_only_options();
   options.T_body_lidar = pose(1.0, {0.1, 0.2, 0.3});
   const auto odometry = this->odometry(options);
   for (int k = 0; k <= 5; ++k) {
@@ -134,7 +134,7 @@ TEST_F(LidarOdometryTest, PosesAreThoseOfTheBody) {
 
 TEST_F(LidarOdometryTest, SameBitsForAnyNumberOfThreads) {
   const auto serial = odometry();
-  const auto parallel = odometry(room_options(), 3);
+  const auto parallel = odometry(lidar_only_options(), 3);
   for (int k = 0; k <= 5; ++k) {
     const Scan next = scan(0.5 * k, pose(0.4 * k, {0.3 * std::sin(k), 0.2 * k - 0.5, 0.0}));
     const FrameResult a = serial->process(next);

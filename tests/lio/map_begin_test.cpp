@@ -10,7 +10,7 @@ namespace {
 
 using test::RoomRecording;
 
-PipelineOptions options_for(PipelineType type) {
+PipelineOptions begin_options(PipelineType type) {
   PipelineOptions options;
   options.type = type;
   options.map.capacity = 20'000;
@@ -28,7 +28,7 @@ TEST(Pipeline, BeginsNoMapWithAScanThatShowsNoSurface) {
         PipelineType::kCtLioContinuous,
         PipelineType::kLidarOnly}) {
     RoomRecording recording;
-    const auto pipeline = make_pipeline(options_for(type));
+    const auto pipeline = make_pipeline(begin_options(type));
     FrameResult result;
     for (int i = 0; i < kFirstGood; ++i) {
       result = recording.feed(

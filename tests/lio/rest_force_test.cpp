@@ -12,7 +12,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double kGravity = 9.81;
+constexpr double kRestForce = 9.81;
 
 /// After `duration` [s] of a swaying motion with poses that are good to 3 mm, of an accelerometer
 /// that feels `share` of gravity at rest.
@@ -20,9 +20,9 @@ RestForce weighed(double share, bool is_scale, double duration) {
   auto generator = test::rng();
   std::normal_distribution<double> noise(0.0, 0.003);
   const test::AnalyticMotion motion{-3.0};
-  const Eigen::Vector3d bias(0.0, 0.0, (share - 1.0) * kGravity);
+  const Eigen::Vector3d bias(0.0, 0.0, (share - 1.0) * kRestForce);
   RestForce rest;
-  rest.set({0.0, 0.0, share * kGravity}, kGravity);
+  rest.set({0.0, 0.0, share * kRestForce}, kRestForce);
   MotionHistory history;
   for (int i = 0; i < static_cast<int>(100.0 * duration); ++i) {
     const double t = 0.01 * i;
@@ -44,7 +44,7 @@ RestForce weighed(double share, bool is_scale, double duration) {
 TEST(RestForce, OfGravityIsNotWorthAWord) {
   for (const double force : {9.6, 9.81, 10.0}) {
     RestForce rest;
-    rest.set({0.0, force, 0.0}, kGravity);
+    rest.set({0.0, force, 0.0}, kRestForce);
     EXPECT_FALSE(rest.is_open());
     EXPECT_EQ(rest.finding(1.0), "");
   }

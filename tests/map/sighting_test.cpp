@@ -20,7 +20,7 @@ namespace {
 using Points = std::vector<Eigen::Vector3d>;
 using Normals = std::vector<Eigen::Vector3f>;
 
-const Eigen::Vector3f kUp = Eigen::Vector3f::UnitZ();
+const Eigen::Vector3f kUpward = Eigen::Vector3f::UnitZ();
 const Eigen::Vector3f kSlanting = Eigen::Vector3f(0.8F, 0.0F, 0.6F);  // 53 degrees from it
 
 std::size_t found(const VoxelMap& map, const Eigen::Vector3d& point, const Eigen::Vector3f& n) {
@@ -31,21 +31,21 @@ std::size_t found(const VoxelMap& map, const Eigen::Vector3d& point, const Eigen
 
 TEST(Sighting, IsHalfTheViewDirection) {
   const Eigen::Vector3f seen = sighting(Eigen::Vector3d(1.0, 2.0, 3.0), {1.0, 2.0, 7.0});
-  EXPECT_EQ(seen, 0.5F * kUp);
+  EXPECT_EQ(seen, 0.5F * kUpward);
   EXPECT_TRUE(is_sighting(seen));
   EXPECT_TRUE(sighting(Eigen::Vector3d(1.0, 2.0, 3.0), {1.0, 2.0, 3.0}).isZero());
   for (const float length : {0.0F, 0.4F, 0.6F, 1.0F, std::numeric_limits<float>::quiet_NaN()}) {
-    EXPECT_FALSE(is_sighting(length * kUp)) << length;
+    EXPECT_FALSE(is_sighting(length * kUpward)) << length;
   }
 }
 
 TEST(Sighting, IsFoundByASightingOnly) {
   VoxelMap map;
-  map.insert(Points{{0.05, 0.05, 0.05}, {0.25, 0.25, 0.05}}, Normals{0.5F * kSlanting, kUp});
-  EXPECT_EQ(found(map, {0.1, 0.1, 0.05}, kUp), 1U);
-  EXPECT_EQ(found(map, {0.1, 0.1, 0.05}, 0.5F * kUp), 2U);
-  EXPECT_EQ(found(map, {0.1, 0.1, 0.05}, -0.5F * kUp), 0U);
-  EXPECT_EQ(found(map, {0.1, 0.1, 0.05}, 0.7F * kUp), 0U) << "neither a normal nor a sighting";
+  map.insert(Points{{0.05, 0.05, 0.05}, {0.25, 0.25, 0.05}}, Normals{0.5F * kSlanting, kUpward});
+  EXPECT_EQ(found(map, {0.1, 0.1, 0.05}, kUpward), 1U);
+  EXPECT_EQ(found(map, {0.1, 0.1, 0.05}, 0.5F * kUpward), 2U);
+  EXPECT_EQ(found(map, {0.1, 0.1, 0.05}, -0.5F * kUpward), 0U);
+  EXPECT_EQ(found(map, {0.1, 0.1, 0.05}, 0.7F * kUpward), 0U) << "neither a normal nor a sighting";
 }
 
 TEST(Sighting, IsGivenBackAsItWas) {
@@ -64,15 +64,15 @@ TEST(Sighting, IsGivenBackAsItWas) {
 TEST(Sighting, GivesItsPlaceToAPointWithANormal) {
   VoxelMap map;
   map.insert(Points{{0.1, 0.1, 0.1}}, Normals{0.5F * kSlanting});
-  const InsertStats stats = map.insert(Points{{0.12, 0.1, 0.1}}, Normals{kUp});
+  const InsertStats stats = map.insert(Points{{0.12, 0.1, 0.1}}, Normals{kUpward});
   EXPECT_EQ(stats.settled, 1U);
   EXPECT_EQ(stats.stored + stats.too_close, 0U);
   ASSERT_EQ(map.size(), 1U);
   EXPECT_NEAR(map.points()[0].position.x(), 0.12, 1e-4);
-  EXPECT_GT(map.points()[0].normal.dot(kUp), 0.99F);
+  EXPECT_GT(map.points()[0].normal.dot(kUpward), 0.99F);
   // Once settled it stays, and no sighting takes its place.
-  EXPECT_EQ(map.insert(Points{{0.1, 0.1, 0.1}}, Normals{kUp}).too_close, 1U);
-  EXPECT_EQ(map.insert(Points{{0.1, 0.1, 0.1}}, Normals{0.5F * kUp}).too_close, 1U);
+  EXPECT_EQ(map.insert(Points{{0.1, 0.1, 0.1}}, Normals{kUpward}).too_close, 1U);
+  EXPECT_EQ(map.insert(Points{{0.1, 0.1, 0.1}}, Normals{0.5F * kUpward}).too_close, 1U);
   EXPECT_NEAR(map.points()[0].position.x(), 0.12, 1e-4);
 }
 
@@ -85,17 +85,17 @@ TEST(Sighting, LeavesRoomInAFullSurface) {
   for (int i = 0; i < 12; ++i) {
     points.emplace_back(0.02 + 0.02 * i, 0.1, 0.1);
   }
-  EXPECT_EQ(map.insert(points, Normals(12, 0.5F * kUp)).surface_full, 2U);
-  EXPECT_EQ(map.insert(Points{{0.25, 0.1, 0.1}}, Normals{kUp}).settled, 1U);
+  EXPECT_EQ(map.insert(points, Normals(12, 0.5F * kUpward)).surface_full, 2U);
+  EXPECT_EQ(map.insert(Points{{0.25, 0.1, 0.1}}, Normals{kUpward}).settled, 1U);
   EXPECT_EQ(map.size(), 10U);
-  EXPECT_EQ(found(map, {0.25, 0.1, 0.1}, kUp), 1U);
+  EXPECT_EQ(found(map, {0.25, 0.1, 0.1}, kUpward), 1U);
 }
 
 TEST(Sighting, DoesNotTurnItsSurface) {
   VoxelMap map;
   map.insert(
       Points{{0.05, 0.05, 0.1}, {0.15, 0.05, 0.1}, {0.25, 0.05, 0.1}, {0.05, 0.25, 0.1}},
-      Normals{0.5F * kSlanting, 0.5F * kSlanting, kUp, 0.5F * kSlanting});
+      Normals{0.5F * kSlanting, 0.5F * kSlanting, kUpward, 0.5F * kSlanting});
   // 105 degrees from the sightings, 52 from the normal.
   const Eigen::Vector3f other(-0.788F, 0.0F, 0.616F);
   EXPECT_EQ(found(map, {0.15, 0.1, 0.1}, other.normalized()), 1U);

@@ -8,9 +8,10 @@
 #include <string_view>
 
 namespace nvm::io {
-namespace {
 
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+
+namespace {
 
 /// Cuts the first run of digits, without leading zeros, or the first other character off `text`.
 std::string_view take_part(std::string_view& text) {

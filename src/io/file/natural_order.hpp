@@ -6,6 +6,9 @@
 
 namespace nvm::io {
 
+/// 0 to 9.
+bool is_digit(char c);
+
 /// Whether file name `a` comes before `b` when runs of digits count by their value: "2.pcd" before
 /// "10.pcd". Names that differ only in leading zeros are ordered as text.
 bool precedes_naturally(const std::string& a, const std::string& b);

@@ -14,6 +14,7 @@
 #include "config/value.hpp"
 #include "io/file/file.hpp"
 #include "io/file/line_reader.hpp"
+#include "io/file/natural_order.hpp"
 #include "io/sequence/trajectory_io.hpp"
 
 namespace nvm::io {
@@ -112,8 +113,6 @@ void set_times(
     scans[i].time = times[times.size() == scans.size() ? i : *number_of(scans[i])];
   }
 }
-
-bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
 /// The time [s] of a whole number of s, ms, us or ns since 1970; nothing for a count.
 std::optional<double> epoch_time(double number) {

@@ -10,7 +10,7 @@ namespace nvm::lio {
 namespace {
 
 constexpr double kMaxStillInterval = 0.05;  // [s]: beyond it motion shows in the differences
-constexpr double kBlock = 0.1;              // [s]
+constexpr double kBlockDuration = 0.1;      // [s]
 constexpr std::size_t kMinThirds = 50;
 constexpr std::size_t kMinSteps = 6;
 constexpr double kMaxCoarse = 2.0;
@@ -59,7 +59,7 @@ void ImuNoiseLearner::Triad::add(const Eigen::Vector3d& reading, double interval
   ++run_;
   block_ += interval * reading;
   block_duration_ += interval;
-  if (block_duration_ < kBlock) {
+  if (block_duration_ < kBlockDuration) {
     return;
   }
   const Eigen::Vector3d mean = block_ / block_duration_;

@@ -12,10 +12,10 @@ namespace nvm::lio {
 namespace {
 
 /// Unknowns: p0, v0, g, of three each, and s.
-constexpr int kUnknowns = 10;
-using Matrix = Eigen::Matrix<double, kUnknowns, kUnknowns>;
-using Vector = Eigen::Matrix<double, kUnknowns, 1>;
-using Rows = Eigen::Matrix<double, 3, kUnknowns>;
+constexpr int kMotionUnknowns = 10;
+using Matrix = Eigen::Matrix<double, kMotionUnknowns, kMotionUnknowns>;
+using Vector = Eigen::Matrix<double, kMotionUnknowns, 1>;
+using Rows = Eigen::Matrix<double, 3, kMotionUnknowns>;
 
 /// The specific force in the map frame, integrated once and twice since the first pose.
 struct ForceSums {

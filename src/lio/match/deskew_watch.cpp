@@ -19,7 +19,7 @@ namespace {
 /// Pose of the scan, then the share of deskewing.
 constexpr int kUnknowns = 7;
 using Row = Eigen::Matrix<double, kUnknowns, 1>;
-using Matrix = Eigen::Matrix<double, kUnknowns, kUnknowns>;
+using NormalMatrix = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 
 /// Through the map's points around `place` that face as `normal` does.
 std::optional<Plane> plane_near(
@@ -44,7 +44,7 @@ std::optional<Plane> plane_near(
 }
 
 struct Equations {
-  Matrix matrix = Matrix::Zero();
+  NormalMatrix matrix = NormalMatrix::Zero();
   Row vector = Row::Zero();
   std::size_t count = 0;
 };

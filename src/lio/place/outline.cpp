@@ -38,7 +38,7 @@ void correlate(const std::vector<double>& map, const std::vector<double>& scan, 
   }
 }
 
-std::uint64_t cell_of(const Eigen::Vector3d& point, double facing) {
+std::uint64_t facing_cell_of(const Eigen::Vector3d& point, double facing) {
   constexpr std::uint64_t kMask = (1U << 20) - 1;
   constexpr double kSector = 0.8;  // [rad]
   std::uint64_t cell = static_cast<std::uint64_t>(std::llround(facing / kSector)) & 15U;
@@ -60,7 +60,7 @@ void Outline::add(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) {
     ceilings_.push_back(point.z());
   } else if (std::abs(normal.z()) < kUpright && !normal.isZero()) {
     const double facing = std::atan2(normal.y(), normal.x());
-    if (cells_.insert(cell_of(point, facing)).second) {
+    if (cells_.insert(facing_cell_of(point, facing)).second) {
       walls_.push_back({{point.head<2>(), facing}, point.z()});
     }
   }

@@ -13,7 +13,7 @@ namespace nvm::lio {
 namespace {
 
 /// Where nobody says where to look, so much of the scan must fit.
-constexpr double kMinShare = 0.75;
+constexpr double kMinJudgedShare = 0.75;
 /// A point that lies on nothing may do so because the map has a gap; one whose line of sight passes
 /// a wall has no such excuse, and weighs so many times as much.
 constexpr double kWeight = 20.0;
@@ -62,8 +62,8 @@ std::string doubt(const Hearing& best) {
   constexpr double kMostAgainst = 0.01;
   const double against = static_cast<double>(count(best.testimonies, Testimony::kAgainst)) /
                          static_cast<double>(best.testimonies.size());
-  if (best.place.share < kMinShare) {
-    return "at the best place " + misfit(best.place.share, kMinShare);
+  if (best.place.share < kMinJudgedShare) {
+    return "at the best place " + misfit(best.place.share, kMinJudgedShare);
   }
   if (best.place.open_directions > 0) {
     return "the scan does not tell all directions of its pose, as in a corridor";

@@ -14,11 +14,12 @@ namespace nvm::lio {
 
 namespace {
 
-constexpr float kFaceRadius = 0.05F;  // around a point of the map, where its face is looked for [m]
+constexpr float kWitnessRadius =
+    0.05F;  // around a point of the map, where its face is looked for [m]
 constexpr std::size_t kMostPoints = 25'000;
-constexpr float kMinRange = 0.4F;   // nearer faces are about the sensor's carrier [m]
-constexpr double kMaxRange = 10.0;  // [m]
-constexpr float kMinCosine = 0.3F;  // of the incidence
+constexpr float kMinWitnessRange = 0.4F;   // nearer faces are about the sensor's carrier [m]
+constexpr double kMaxWitnessRange = 10.0;  // [m]
+constexpr float kMinWitnessCosine = 0.3F;  // of the incidence
 /// How far noise, and the pose's error, may put a point off its face [m].
 constexpr float kNoise = 0.05F;
 
@@ -54,7 +55,7 @@ struct ScanWitness::Face {
 
 ScanWitness::ScanWitness(
     const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& normals)
-    : lines_(points, kMinRange, [&, step = points.size() / kMostPoints + 1](std::size_t i) {
+    : lines_(points, kMinWitnessRange, [&, step = points.size() / kMostPoints + 1](std::size_t i) {
         return i % step == 0 && !normals[i].isZero();
       }) {
   for (const std::uint32_t index : lines_.indices()) {
@@ -70,12 +71,13 @@ Testimonies ScanWitness::testify(const VoxelMap& map, const Pose& T_map_scan) co
   question.answers.assign(size(), Testimony::kNone);
   const Eigen::Matrix3f R_scan_map = question.R_map_scan.transpose();
   const Eigen::Vector3d origin = T_map_scan.translation();
-  map.for_each_within(origin, kMaxRange, [&](const Neighbor& neighbor) {
+  map.for_each_within(origin, kMaxWitnessRange, [&](const Neighbor& neighbor) {
     Face face;
     face.center = R_scan_map * (neighbor.position - origin).template cast<float>();
     face.normal = R_scan_map * plane_normal(map.normal(neighbor.id));
     face.range = face.center.norm();
-    if (face.range > kMinRange && -face.normal.dot(face.center) > kMinCosine * face.range) {
+    if (face.range > kMinWitnessRange &&
+        -face.normal.dot(face.center) > kMinWitnessCosine * face.range) {
       look_through(face, question);
     }
   });
@@ -90,22 +92,23 @@ Testimonies ScanWitness::testify(const VoxelMap& map, const Pose& T_map_scan) co
 /// Has the points speak against the place whose lines of sight pass through `face`.
 void ScanWitness::look_through(const Face& face, Question& question) const {
   const float height = -face.normal.dot(face.center);  // of the origin above the face
-  lines_.for_each_near(face.center / face.range, kFaceRadius / face.range, [&](std::size_t line) {
-    const float descent = -face.normal.dot(directions_[line]);
-    if (question.answers[line] == Testimony::kAgainst ||
-        ranges_[line] * descent < height + kNoise) {
-      return;
-    }
-    const Eigen::Vector3f passage = (height / descent) * directions_[line];
-    if ((passage - face.center).squaredNorm() < kFaceRadius * kFaceRadius &&
-        is_covered(
-            question.map,
-            question.T_map_scan * passage.cast<double>(),
-            question.R_map_scan * face.normal,
-            question.context)) {
-      question.answers[line] = Testimony::kAgainst;
-    }
-  });
+  lines_.for_each_near(
+      face.center / face.range, kWitnessRadius / face.range, [&](std::size_t line) {
+        const float descent = -face.normal.dot(directions_[line]);
+        if (question.answers[line] == Testimony::kAgainst ||
+            ranges_[line] * descent < height + kNoise) {
+          return;
+        }
+        const Eigen::Vector3f passage = (height / descent) * directions_[line];
+        if ((passage - face.center).squaredNorm() < kWitnessRadius * kWitnessRadius &&
+            is_covered(
+                question.map,
+                question.T_map_scan * passage.cast<double>(),
+                question.R_map_scan * face.normal,
+                question.context)) {
+          question.answers[line] = Testimony::kAgainst;
+        }
+      });
 }
 
 /// Whether the map has a face like the point's that it lies on, or only one right beside it.
