@@ -13,6 +13,10 @@ python="$PWD/$folder/venv/bin/python"
 wheel=$(ls "$folder"/nvm-*.whl)
 "$python" -m pip install --quiet auditwheel "${wheel}[test]"
 "$python" -m auditwheel show "$wheel" | tee "$folder/auditwheel.txt"
+"$python" -c 'import subprocess, sys, time
+begin = time.perf_counter()
+subprocess.run([sys.executable, "-c", "import nvm"], check=True)
+print(f"import nvm: {time.perf_counter() - begin:.2f} s, the interpreter included")'
 grep -q '"manylinux_' "$folder/auditwheel.txt" # a library that a bare machine lacks would leave it linux_x86_64
 # C++ that was built before is what Python must agree with, and has the simulator.
 for build in "$root/build/dev" "$root/build/release"; do

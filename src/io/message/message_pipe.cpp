@@ -22,11 +22,11 @@ namespace {
 
 constexpr const char* kIsOther = "is a pipe, but not of nvm messages of version 1";
 constexpr const char* kEndsEarly = "ended before its last message: whoever read it stopped";
-constexpr unsigned kMebibyte = 20;            // bits
-constexpr std::size_t kMaxHead = 1U << 20;    // [bytes]
-constexpr std::uint32_t kMaxSize = 1U << 28;  // [bytes] of a message
-constexpr std::size_t kMaxAhead = 1U << 29;   // [bytes] read to see the first of a topic
-constexpr std::uint32_t kEnd = 0xffffffff;    // in the place of a topic: the recording is whole
+constexpr std::uint32_t kMebibyte = 1U << 20;  // [bytes]
+constexpr std::size_t kMaxHead = 1U << 20;     // [bytes]
+constexpr std::uint32_t kMaxSize = 1U << 28;   // [bytes] of a message
+constexpr std::size_t kMaxAhead = 1U << 29;    // [bytes] read to see the first of a topic
+constexpr std::uint32_t kEnd = 0xffffffff;     // in the place of a topic: the recording is whole
 
 class MessagePipe : public MessageSource {
  public:
@@ -150,8 +150,8 @@ class MessagePipe : public MessageSource {
           "has {} MiB, more than the {} that are read of one: if it is a map, name a topic of "
           "scans "
           "(input.lidar_topic)",
-          (size >> kMebibyte) + 1,
-          kMaxSize >> kMebibyte);
+          size / kMebibyte + 1,
+          kMaxSize / kMebibyte);
       return message;
     }
     message.bytes.resize(size);
