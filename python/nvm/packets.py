@@ -15,6 +15,8 @@ import pathlib
 import statistics
 from collections.abc import Iterator
 
+import numpy as np
+
 from .bags import SAMPLES, BagError, Message
 from .imu import IMU
 from .ros1_messages import Readings, Sweep, cloud_bytes, imu_bytes
@@ -23,6 +25,8 @@ from .topics import CLOUD, Topic, described
 from .transforms import TransformTree
 
 ENDINGS = (".pcap", ".pcapng", ".osf")
+MAX_TIME = 2.0**32 - 1  # [s]
+MAX_SPAN = 4.0  # [s], of nanoseconds in 32 bits
 VELODYNE = "pip install velodyne-decoder"
 INSTALL = {
     "ouster": "pip install ouster-sdk, and then pip install 'rosbags>=0.10', of which it asks for an older version",
@@ -105,12 +109,14 @@ class PacketRecording:
         for name in {item.topic: None for item in first}:
             items = [item for item in first if item.topic == name]
             messages = list(itertools.islice(itertools.chain.from_iterable(map(messages_of, items)), SAMPLES))
+            messages = [message for message in messages if message.data]
             times = [message.record_time for message in messages]
             steps = [b - a for a, b in itertools.pairwise(times) if b > a]
             rate = 1.0 / statistics.median(steps) if steps else 0.0
             kind = IMU if isinstance(items[0], Readings) else CLOUD
             samples = [ros1_typestore().deserialize_ros1(message.data, kind) for message in messages]
-            found.append(Topic(name, kind, len(messages), rate, **described(samples, False)))
+            about = described(samples, False) if samples else {}
+            found.append(Topic(name, kind, len(messages), rate, **about))
         return self._counted(found)
 
     def _counted(self, topics: list[Topic]) -> list[Topic]:
@@ -163,8 +169,17 @@ def explained(path: pathlib.Path):
 
 
 def messages_of(item: Sweep | Readings) -> Iterator[Message]:
+    """Those whose times no message can hold are empty, as damaged ones of bags are: the program counts them."""
     if isinstance(item, Readings):
         for time, gyro, accel in zip(item.times, item.gyro, item.accel):
-            yield Message(item.topic, "sensor_msgs/Imu", float(time), imu_bytes(item.frame, time, gyro, accel))
+            data = imu_bytes(item.frame, time, gyro, accel) if is_dated([time]) else b""
+            yield Message(item.topic, "sensor_msgs/Imu", float(time), data)
     else:
-        yield Message(item.topic, "sensor_msgs/PointCloud2", float(item.times[-1]), cloud_bytes(item))
+        data = cloud_bytes(item) if is_dated(item.times) else b""
+        yield Message(item.topic, "sensor_msgs/PointCloud2", float(item.times[-1]), data)
+
+
+def is_dated(times) -> bool:
+    """Whether a message can hold times that begin with its own, all [s]."""
+    since = np.subtract(times, times[0])
+    return bool(0.0 <= times[0] < MAX_TIME and since.min() >= 0.0 and since.max() < MAX_SPAN)

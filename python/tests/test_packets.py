@@ -269,6 +269,25 @@ def test_ouster_recordings_have_points_readings_and_the_extrinsic(tmp_path, kind
     np.testing.assert_allclose(T[:3, 3], -1e-3 * np.array(room.info.imu_to_sensor_transform)[:3, 3], atol=1e-9)
 
 
+def test_a_sweep_with_an_impossible_time_is_left_out_alone(tmp_path, monkeypatch, capfd):
+    room = OusterRoom(puts_imu_into_frames=True)
+    whole = room.frame
+
+    def frame(number):
+        made = whole(number)
+        if number == 12:
+            made.timestamp[0] = 1  # the rest lies 54 years later
+        return made
+
+    monkeypatch.setattr(room, "frame", frame)
+    path = room.write_osf(tmp_path / "room.osf", 30)
+    messages = list(PacketRecording(path).messages(["/ouster/points"]))
+    assert [i for i, message in enumerate(messages) if not message.data] == [12]
+    assert main(["run", str(path), "--out", str(tmp_path / "out")]) == 0
+    assert len(np.loadtxt(tmp_path / "out" / "trajectory.tum")) >= 18
+    assert "1 clouds are left out" in capfd.readouterr().err
+
+
 def test_an_ouster_that_stands_still_is_tracked_with_its_imu(tmp_path, capfd):
     path = OusterRoom(puts_imu_into_frames=True).write_osf(tmp_path / "room.osf", 30)
     assert main(["run", str(path), "--out", str(tmp_path / "out")]) == 0
