@@ -46,13 +46,36 @@ endif()"
   set(${package}_DIR ${config_dir} PARENT_SCOPE)
 endfunction()
 
+# nvm_use_embree(LIBRARY): Embree's library, which its Python bindings bring without headers, as find_package(embree).
+function(nvm_use_embree library)
+  set(config_dir ${PROJECT_BINARY_DIR}/wheels/cmake)
+  file(
+    CONFIGURE
+    OUTPUT ${config_dir}/embreeConfig.cmake
+    CONTENT "
+set(EMBREE_VERSION_MAJOR 4)
+if(NOT TARGET embree)
+  add_library(embree SHARED IMPORTED)
+  set_target_properties(embree PROPERTIES IMPORTED_LOCATION \"${library}\"
+                                          INTERFACE_INCLUDE_DIRECTORIES \"${PROJECT_SOURCE_DIR}/third_party/include\")
+endif()"
+    @ONLY)
+  set(embree_DIR ${config_dir} PARENT_SCOPE)
+endfunction()
+
+nvm_use_wheel_package(cmeel-assimp "assimpConfig.cmake")
 nvm_use_wheel_package(cmeel-eigen "Eigen3Config.cmake")
 nvm_use_wheel_package(cmeel-fmt "fmt-config.cmake")
 nvm_use_wheel_package(cmeel-yaml-cpp "yaml-cpp-config.cmake")
+nvm_use_wheel_package(embreex "libembree4*")
 nvm_use_wheel_package(nlohmann-json "nlohmann/json.hpp")
 nvm_use_wheel_package(tbb-devel "TBBConfig.cmake")
 if(EXISTS ${PROJECT_BINARY_DIR}/wheels/nlohmann-json)
   nvm_use_headers(nlohmann_json ${PROJECT_BINARY_DIR}/wheels/nlohmann-json/include)
+endif()
+file(GLOB embree_library ${PROJECT_BINARY_DIR}/wheels/embreex/libembree4*)
+if(embree_library)
+  nvm_use_embree(${embree_library})
 endif()
 nvm_use_headers(CLI11 ${PROJECT_SOURCE_DIR}/third_party/include)
 nvm_use_headers(nanoflann ${PROJECT_SOURCE_DIR}/third_party/include)
@@ -60,6 +83,15 @@ nvm_use_headers(nanoflann ${PROJECT_SOURCE_DIR}/third_party/include)
 find_package(TBB REQUIRED)
 if(EXISTS ${PROJECT_BINARY_DIR}/wheels/tbb-devel) # TBBConfig.cmake names the folder behind the link
   set_target_properties(TBB::tbb PROPERTIES INTERFACE_INCLUDE_DIRECTORIES ${PROJECT_BINARY_DIR}/wheels/tbb-devel/include)
+endif()
+
+# The simulator, wherever there are wheels for it.
+find_package(assimp QUIET)
+find_package(embree QUIET)
+if(NOT assimp_FOUND OR NOT embree_FOUND)
+  list(REMOVE_ITEM NVM_COMPONENTS sim)
+elseif(EXISTS ${PROJECT_BINARY_DIR}/wheels/cmeel-assimp) # its config asks for zlib, which only its library needs
+  set_target_properties(assimp::assimp PROPERTIES INTERFACE_LINK_LIBRARIES "")
 endif()
 
 # Debian's yaml-cpp 0.7 has the short name only, 0.8 the long one.

@@ -57,7 +57,7 @@ PROGRAM_COMMANDS = {
     "merge": "put the maps of several runs of one place together",
     "walls": "list the walls of a map",
     "export": "write a saved map as points with normals and sides",
-    "simulate": "simulate a LiDAR and an IMU in a scene: with nvm-tools on the PATH",
+    "simulate": "simulate a LiDAR and an IMU in a scene",
     "evaluate": "compare trajectories and maps of runs with the truth",
 }
 

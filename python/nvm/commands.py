@@ -17,7 +17,7 @@ from .program import find_program
 
 def call(*arguments) -> None:
     """Runs the program; what it says when it fails becomes a RuntimeError."""
-    command = [find_program(arguments[0]), *map(os.fspath, map(str_or_path, arguments))]
+    command = [find_program(), *map(os.fspath, map(str_or_path, arguments))]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode != 0:
         raise RuntimeError(done.stderr.strip() or f"nvm {arguments[0]} ended with {done.returncode}")
@@ -58,8 +58,7 @@ def export(voxel_map, out) -> pathlib.Path:
 
 
 def simulate(scene, out, *, sensor="mid360", seed=1, duration=0.0, settings=None) -> pathlib.Path:
-    """Simulate a LiDAR and an IMU in a scene: with the program of nvm-tools on the PATH, or one that
-    ``NVM_PROGRAM`` names.
+    """Simulate a LiDAR and an IMU in a scene, as a sequence for ``nvm run`` with its truth.
 
     Parameters
     ----------

@@ -32,39 +32,24 @@ PIPE_SIZE = 1 << 20  # [bytes]
 BUFFER_SIZE = 1 << 16  # [bytes], which joins messages of IMUs and leaves clouds where they are
 
 
-def find_program(command: str = "") -> str:
-    """The program for `command`: the one that $NVM_PROGRAM names, or that of the package. That one has no
-    simulator, so ``simulate`` goes to one on the PATH, of nvm-tools, where this command of the same name
-    may come first.
+def find_program() -> str:
+    """The program of the package, or the one that $NVM_PROGRAM names.
 
     Raises
     ------
     RuntimeError
         When there is none.
     """
-    if named := os.environ.get("NVM_PROGRAM"):
-        return named
-    package = pathlib.Path(_nvm.__file__).parent / "bin"
-    path = map(pathlib.Path, os.get_exec_path()) if command == "simulate" else ()
-    for program in (place / "nvm" for place in (*path, package)):
-        if is_compiled(program):
-            return str(program)
-    raise RuntimeError(f"{package} lacks the program: install nvm again (pip install --force-reinstall)")
-
-
-def is_compiled(path: pathlib.Path) -> bool:
-    """Whether a file is a program for the processor, not a script such as pip makes."""
-    try:
-        with open(path, "rb") as file:
-            return file.read(4) in (b"\x7fELF", b"\xcf\xfa\xed\xfe") and os.access(path, os.X_OK)
-    except OSError:
-        return False
+    program = os.environ.get("NVM_PROGRAM") or pathlib.Path(_nvm.__file__).parent / "bin" / "nvm"
+    if not os.access(program, os.X_OK):
+        raise RuntimeError(f"{program}: cannot be run: install nvm again, or let $NVM_PROGRAM name another")
+    return str(program)
 
 
 def run_program(arguments: list[str], keeps: tuple[int, ...] = ()) -> int:
     """Runs the program on `arguments` and returns its exit code. The first argument that names a bag
     is read for it. It inherits the file descriptors `keeps`."""
-    program = find_program(arguments[0])
+    program = find_program()
     bags = [i for i, argument in enumerate(arguments) if i > 0 and is_recording(argument)]
     if not bags or arguments[0] not in ("run", "map"):
         return run_alone([program, *arguments], keeps)

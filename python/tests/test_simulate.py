@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: MIT
+# Copyright (c) 2026 The nvm authors
+"""The simulator of the package: the same as any other build of it, and what it makes runs."""
+
+import json
+import os
+import pathlib
+
+import numpy as np
+import pytest
+from sequences import RECORD
+from support import nvm as command
+
+import nvm
+
+TOOLS = os.environ.get("NVM_TOOLS")  # the folder of a program with Debian's Embree
+
+MESH_SCENE = """
+meshes: [{name: screen, file: screen.obj, at: [3, 0]}]
+boxes: [{name: floor, min: [-6, -6, -0.2], max: [6, 6, 0]}]
+route: {speed: 0.5, waypoints: [[-2, -1], [0, 1]]}
+"""
+
+
+def scans(sequence):
+    rows = (sequence / "scans.csv").read_text().splitlines()[1:]
+    return [np.fromfile(sequence / row.split(",")[3], RECORD) for row in rows]
+
+
+def test_what_is_simulated_runs_and_is_scored(tmp_path):
+    sequence = nvm.simulate("wall5", tmp_path / "sequence", sensor="vlp16", duration=6.0)
+    assert command("run", sequence, "--out", tmp_path / "out").returncode == 0
+    report = nvm.evaluate(tmp_path / "out", tmp_path / "report", truth=sequence)
+    assert json.loads((tmp_path / "report" / "evaluation.json").read_text()) == report
+    assert len(report["runs"]) == 1 and (tmp_path / "report" / "report.html").is_file()
+
+
+def test_seeds_and_settings_decide_what_comes(tmp_path):
+    first, again, other = (
+        nvm.simulate("wall5", tmp_path / name, duration=1.0, seed=seed)
+        for name, seed in (("first", 1), ("again", 1), ("other", 2))
+    )
+    assert (first / "imu.csv").read_bytes() == (again / "imu.csv").read_bytes()
+    assert all(np.array_equal(a, b) for a, b in zip(scans(first), scans(again), strict=True))
+    assert (first / "imu.csv").read_bytes() != (other / "imu.csv").read_bytes()
+    slow = nvm.simulate("wall5", tmp_path / "slow", duration=1.0, settings={"lidar.scan_rate": 5})
+    assert len(scans(slow)) == 5
+    with pytest.raises(RuntimeError, match="no_such_scene"):
+        nvm.simulate("no_such_scene", tmp_path / "none")
+
+
+@pytest.mark.skipif(not TOOLS, reason="needs $NVM_TOOLS")
+def test_another_embree_sees_the_same(tmp_path, monkeypatch):
+    mine = nvm.simulate("cafe", tmp_path / "mine", sensor="vlp16", duration=1.0)
+    monkeypatch.setenv("NVM_PROGRAM", str(pathlib.Path(TOOLS) / "nvm"))
+    theirs = nvm.simulate("cafe", tmp_path / "theirs", sensor="vlp16", duration=1.0)
+    assert (mine / "imu.csv").read_bytes() == (theirs / "imu.csv").read_bytes()
+    for a, b in zip(scans(mine), scans(theirs), strict=True):
+        # A ray along an edge may meet either side of it.
+        assert len(a) == len(b) and np.mean(np.abs(a["xyz"] - b["xyz"]).max(axis=1) > 1e-4) < 1e-3
+
+
+def test_meshes_are_seen(tmp_path):
+    (tmp_path / "screen.obj").write_text("v 0 -4 0\nv 0 4 0\nv 0 4 3\nv 0 -4 3\nf 1 2 3 4\n")
+    scene = tmp_path / "scene.yaml"
+    scene.write_text(MESH_SCENE)
+    settings = {"lidar.range_noise": 0.0}
+    sequence = nvm.simulate(scene, tmp_path / "sequence", sensor="vlp16", duration=1.0, settings=settings)
+    ranges = np.linalg.norm(scans(sequence)[0]["xyz"], axis=1)
+    assert np.count_nonzero(ranges > 4.9) > 500  # the screen, 5 m before the start
