@@ -155,6 +155,24 @@ TEST(ImperfectImu, WithoutAccelerationsIsLeftOut) {
   EXPECT_THAT(outcome.findings, ::testing::ElementsAre(::testing::HasSubstr("feels 0.0")));
 }
 
+TEST(ImperfectImu, WhoseAxisIsDeadIsNamed) {
+  auto generator = test::rng();
+  std::normal_distribution<double> noise(0.0, 1e-4);
+  for (const auto& [part, axis, name] :
+       {std::tuple(&ImuSample::gyro, 2, "gyroscope's z axis reads 0 "),
+        std::tuple(&ImuSample::accel, 0, "accelerometer's x axis reads 0 "),
+        std::tuple(&ImuSample::accel, 2, "accelerometer's z axis reads 0 ")}) {
+    const RoomRecording recording = recording_sending([&](ImuSample& sample) {
+      sample.gyro = sample.gyro.unaryExpr([&](double value) { return value + noise(generator); });
+      sample.accel = sample.accel.unaryExpr([&](double value) { return value + noise(generator); });
+      (sample.*part)[axis] = 0.0;
+    });
+    const Outcome outcome = run(recording);
+    EXPECT_THAT(outcome.findings, ::testing::ElementsAre(::testing::HasSubstr(name)));
+    EXPECT_EQ(outcome.frames.back().status, FrameStatus::kTracking) << name;
+  }
+}
+
 TEST(ImperfectImu, OnAnotherClockIsLeftOut) {
   for (const double offset : {1.7e9, -1.7e9}) {
     const RoomRecording recording =

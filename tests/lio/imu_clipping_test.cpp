@@ -69,5 +69,30 @@ TEST(ImuClipping, SeesAnAxisThatNeverLeavesItsLimit) {
   EXPECT_FALSE(clipping_of([](const Eigen::Vector3d& reading) { return reading; }).stuck());
 }
 
+TEST(ImuClipping, SeesAnAxisThatStandsStill) {
+  for (const double value : {0.0, 0.3, -9.81}) {
+    int count = 0;
+    const auto frozen = clipping_of([&](const Eigen::Vector3d& reading) {
+                          const bool is_dead = ++count > 1000;  // of 4000
+                          return Eigen::Vector3d(reading.x(), is_dead ? value : reading.y(), 0.5);
+                        }).frozen();
+    ASSERT_TRUE(frozen) << value;
+    EXPECT_EQ(frozen->index, 1);
+    EXPECT_EQ(frozen->limit, value);
+    EXPECT_NEAR(frozen->share, 0.75, 0.001);
+  }
+}
+
+TEST(ImuClipping, SeesNoneThatMovesOrRestsWithTheOthers) {
+  EXPECT_FALSE(clipping_of([](const Eigen::Vector3d& reading) { return reading; }).frozen());
+  EXPECT_FALSE(
+      clipping_of([](const Eigen::Vector3d&) { return Eigen::Vector3d(0, 0, 9.8); }).frozen());
+  int count = 0;
+  const auto seldom = [&](const Eigen::Vector3d& reading) {
+    return ++count % 300 == 0 ? reading : Eigen::Vector3d(reading.x(), 0.1, 0.2);
+  };
+  EXPECT_FALSE(clipping_of(seldom).frozen());
+}
+
 }  // namespace
 }  // namespace nvm::lio

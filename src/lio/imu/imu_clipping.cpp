@@ -26,6 +26,11 @@ void ImuClipping::Track::add(double value, bool others_change) {
   if (step > 0.0) {
     smallest_step = std::min(smallest_step, step);
   }
+  same = step > 0.0 ? 0 : same + (others_change ? 1 : 0);
+  if (same > frozen) {
+    frozen = same;
+    frozen_at = value;
+  }
   if (size > limit) {
     limit = size;
     runs = count = 0;
@@ -74,6 +79,19 @@ std::optional<ImuClipping::Axis> ImuClipping::stuck() const {
     if (track.run >= kLong && track.limit > 0.0) {
       const double share = static_cast<double>(track.run) / static_cast<double>(count_);
       return Axis{axis, track.limit, share};
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<ImuClipping::Axis> ImuClipping::frozen() const {
+  constexpr std::size_t kLong = 400;
+  constexpr double kMinShare = 0.5;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Track& track = tracks_[static_cast<std::size_t>(axis)];
+    const double share = static_cast<double>(track.frozen) / static_cast<double>(count_);
+    if (track.frozen >= kLong && share > kMinShare) {
+      return Axis{axis, track.frozen_at, share};
     }
   }
   return std::nullopt;

@@ -163,6 +163,19 @@ std::string clipping_finding(
       100.0 * axis.share);
 }
 
+std::string frozen_finding(
+    const char* sensor, const char* unit, const ImuClipping::Axis& axis, double scale) {
+  return printed(
+      "the %s's %c axis reads %.3g %s in %.0f %% of the readings, whatever the others do: it is "
+      "dead, "
+      "or its driver leaves it out; the scans alone were used. Mend the driver",
+      sensor,
+      "xyz"[axis.index],
+      scale * axis.limit,
+      unit,
+      100.0 * axis.share);
+}
+
 std::string left_out_finding(const ImuBufferStats& stats) {
   const std::size_t count = stats.non_finite + stats.implausible;
   if (count == 0) {

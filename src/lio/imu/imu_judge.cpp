@@ -132,6 +132,14 @@ std::vector<std::string> ImuJudge::summary() const {
   return lines;
 }
 
+std::string ImuJudge::frozen_axis() const {
+  if (const auto axis = gyro_clipping_.frozen()) {
+    return frozen_finding("gyroscope", "rad/s", *axis, gyro_scale_);
+  }
+  const auto axis = accel_clipping_.frozen();
+  return axis ? frozen_finding("accelerometer", "m/s^2", *axis, accel_scale_) : "";
+}
+
 // A sensor at rest, or nearly so, feels gravity and turns little, in whatever unit.
 void ImuJudge::find_units() {
   constexpr double kSteady = 0.05;

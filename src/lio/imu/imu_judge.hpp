@@ -64,6 +64,8 @@ class ImuJudge {
   const std::vector<std::string>& findings() const { return findings_; }
   /// The same, and what the whole run says of clocks and force at rest.
   std::vector<std::string> summary() const;
+  /// Of an axis that stands still, which only explains what contradicts the scans; "" without one.
+  std::string frozen_axis() const;
 
  private:
   static constexpr std::size_t kUnitCount = 20;

@@ -135,8 +135,30 @@ double fitted_scale(const Pairs& pairs, const Eigen::Matrix3d& rotation) {
   return gyro > 0.0 ? both / gyro : 1.0;
 }
 
+/// Turns one after the other as one, of a duration over which the errors of poses weigh little:
+/// those that scans tell without an IMU overshoot at each change, which would look like a scale.
+Pairs joined(const Pairs& pairs) {
+  constexpr double kDuration = 0.5;  // [s]
+  Pairs joined;
+  Pair sum{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), 0.0};
+  for (const Pair& pair : pairs) {
+    sum.by_scans += pair.by_scans;
+    sum.by_gyro += pair.by_gyro;
+    sum.duration += pair.duration;
+    if (sum.duration >= kDuration) {
+      joined.push_back(sum);
+      sum = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), 0.0};
+    }
+  }
+  return joined;
+}
+
 /// A straight line through the rates of both.
 void fit_changes(const Pairs& pairs, TurnComparison& comparison) {
+  constexpr std::size_t kMinCount = 4;
+  if (pairs.size() < kMinCount) {
+    return;
+  }
   const auto count = static_cast<double>(pairs.size());
   const auto scans = [](const Pair& pair) {
     return Eigen::Vector3d(pair.by_scans / pair.duration);
@@ -190,7 +212,7 @@ std::optional<TurnComparison> compare_turns(const MotionHistory& history) {
     comparison.reflected_mismatch =
         mismatch_of(pairs, fitted_scale(pairs, reflection) * reflection);
   }
-  fit_changes(pairs, comparison);
+  fit_changes(joined(pairs), comparison);
   return comparison;
 }
 

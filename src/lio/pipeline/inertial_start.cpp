@@ -204,8 +204,12 @@ void InertialPipeline::follow_imu_clock() {
 }
 
 std::vector<std::string> InertialPipeline::findings() const {
-  std::vector<std::string> findings = judge_.summary();
-  const bool is_explained = !judge_.findings().empty() || (!findings.empty() && !is_alone_);
+  const bool was_left = contradictions_ > 0 || (is_alone_ && map_->size() > 0);
+  const std::string frozen = was_left ? judge_.frozen_axis() : "";
+  std::vector<std::string> findings =
+      frozen.empty() ? judge_.summary() : std::vector<std::string>{frozen};
+  const bool is_explained =
+      !frozen.empty() || !judge_.findings().empty() || (!findings.empty() && !is_alone_);
   const std::string doubt = is_explained ? "" : why_left();
   const std::string misled = findings.empty() && doubt.empty() ? predictions_.finding() : "";
   for (const std::string& line : {doubt, misled, left_out_finding(imu_.stats())}) {
