@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "common/median.hpp"
+#include "survey/survey_options.hpp"
 
 namespace nvm::survey {
 
@@ -43,6 +44,35 @@ Eigen::Vector3d middle_of(const std::vector<Eigen::Vector3d>& positions) {
     }
   }
   return middle;
+}
+
+using KeyedPoint = std::pair<std::uint64_t, std::uint32_t>;  // of its cell, and its index
+
+std::vector<KeyedPoint> sorted_by_cell(const std::vector<Eigen::Vector3d>& positions, double size) {
+  std::vector<KeyedPoint> keyed(positions.size());
+  for (std::size_t i = 0; i < keyed.size(); ++i) {
+    keyed[i] = {key_of(positions[i], size), static_cast<std::uint32_t>(i)};
+  }
+  if (!std::is_sorted(keyed.begin(), keyed.end())) {
+    std::sort(keyed.begin(), keyed.end());
+  }
+  return keyed;
+}
+
+/// Neighbours come to lie side by side: whoever goes over the points of a face finds them in the
+/// cache.
+void bring_together(SurveyCloud& cloud) {
+  const std::vector<KeyedPoint> order = sorted_by_cell(cloud.positions, SurveyOptions{}.patch_size);
+  std::vector<Eigen::Vector3d> positions;
+  std::vector<Eigen::Vector3f> normals;
+  positions.reserve(order.size());
+  normals.reserve(order.size());
+  for (const auto& [key, index] : order) {
+    positions.push_back(cloud.positions[index]);
+    normals.push_back(cloud.normals[index]);
+  }
+  cloud.positions = std::move(positions);
+  cloud.normals = std::move(normals);
 }
 
 /// How finely coordinates were written: in single precision, when all of them are such numbers.
@@ -109,6 +139,7 @@ SurveyCloud survey_cloud(const io::MapCloud& cloud) {
         " points has a position and a normal, which tells the two faces of a wall apart; make the "
         "map with `nvm run` or `nvm map`, with map.type=nvm");
   }
+  bring_together(result);
   return result;
 }
 
@@ -128,11 +159,7 @@ PatchGrid::PatchGrid(const SurveyCloud& cloud, double size) : size_(size) {
 }
 
 void PatchGrid::sort_points(const SurveyCloud& cloud) {
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> keyed(cloud.positions.size());
-  for (std::size_t i = 0; i < keyed.size(); ++i) {
-    keyed[i] = {key_of(cloud.positions[i], size_), static_cast<std::uint32_t>(i)};
-  }
-  std::sort(keyed.begin(), keyed.end());
+  const std::vector<KeyedPoint> keyed = sorted_by_cell(cloud.positions, size_);
   order_.reserve(keyed.size());
   point_keys_.reserve(keyed.size());
   for (const auto& [key, index] : keyed) {

@@ -24,7 +24,8 @@ struct SurveyCloud {
                              ///< numbers; 0 when they are finer [m]
 };
 
-/// The usable points of `cloud`. Throws std::invalid_argument when none has a normal.
+/// The usable points of `cloud`, in an order of their own. Throws std::invalid_argument when none
+/// has a normal.
 SurveyCloud survey_cloud(const io::MapCloud& cloud);
 
 /// Points of one cell that look the same way and lie on one plane.

@@ -32,7 +32,11 @@ std::vector<CloudMessage> ScanStream::select(std::vector<CloudMessage> clouds) {
 
 void ScanStream::learn(const std::vector<CloudMessage>& clouds) {
   converter_.learn(clouds);
-  overlap_note_ = overlap_.learn(converter_.preview(clouds));
+  const std::vector<Scan> first = converter_.preview(clouds);
+  two_lidars_ = overlap_.learn(first);
+  if (two_lidars_.empty()) {
+    two_lidars_ = views_.learn(first);
+  }
 }
 
 void ScanStream::check(const CloudMessage& cloud) { clouds_.check(cloud, arrival(cloud)); }
@@ -40,13 +44,14 @@ void ScanStream::check(const CloudMessage& cloud) { clouds_.check(cloud, arrival
 Scan ScanStream::convert(const PointRecords& records, double stamp) {
   Scan scan = converter_.convert(records, stamp);
   overlap_.check(scan);
+  views_.check(scan);
   return scan;
 }
 
 std::vector<std::string> ScanStream::notes() const {
   std::vector<std::string> notes = converter_.notes();
-  if (!overlap_note_.empty()) {
-    notes.push_back(overlap_note_);
+  if (!two_lidars_.empty()) {
+    notes.push_back(two_lidars_);
   }
   return notes;
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "io/scan/alternating_views.hpp"
 #include "io/scan/cloud_stream.hpp"
 #include "io/scan/scan_converter.hpp"
 #include "io/scan/sweep_overlap.hpp"
@@ -27,7 +28,7 @@ class ScanStream {
   void check(const CloudMessage& cloud);
 
   /// The scan of the cloud that passed check() last, which its clock dates `stamp` [s]. Throws
-  /// std::runtime_error (ScanConverter, SweepOverlap).
+  /// std::runtime_error (ScanConverter, SweepOverlap, AlternatingViews).
   Scan convert(const PointRecords& records, double stamp);
 
   const ScanConverter& converter() const { return converter_; }
@@ -42,7 +43,8 @@ class ScanStream {
   CloudStream clouds_;
   ScanConverter converter_;
   SweepOverlap overlap_;
-  std::string overlap_note_;
+  AlternatingViews views_;
+  std::string two_lidars_;  ///< what either says
 };
 
 }  // namespace nvm::io

@@ -135,10 +135,10 @@ double fitted_scale(const Pairs& pairs, const Eigen::Matrix3d& rotation) {
   return gyro > 0.0 ? both / gyro : 1.0;
 }
 
-/// Turns one after the other as one, of a duration over which the errors of poses weigh little:
-/// those that scans tell without an IMU overshoot at each change, which would look like a scale.
+/// Turns one after the other as one. Poses that scans tell without an IMU overshoot where a walk
+/// swings, which would look like a scale of the gyroscope; slow turns are theirs as well.
 Pairs joined(const Pairs& pairs) {
-  constexpr double kDuration = 0.5;  // [s]
+  constexpr double kDuration = 1.0;  // about the period of a step [s]
   Pairs joined;
   Pair sum{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), 0.0};
   for (const Pair& pair : pairs) {
