@@ -17,6 +17,7 @@ import signal
 import struct
 import subprocess
 import sys
+import tempfile
 import threading
 
 from . import _nvm
@@ -29,6 +30,7 @@ from .topics import Topic
 END = 0xFFFFFFFF  # in the place of a topic
 LARGEST = 0xFFFFFFFF  # [bytes] of a message: far more than the program reads of one
 PIPE_SIZE = 1 << 20  # [bytes]
+AGAIN = 75  # the program's exit code when the messages are to come once more, with what it has learned
 BUFFER_SIZE = 1 << 16  # [bytes], which joins messages of IMUs and leaves clouds where they are
 
 
@@ -123,8 +125,21 @@ def choice_arguments(choice: Choice, settings: dict) -> list[str]:
 
 
 def feed(before: list[str], after: list[str], keeps, recording: Recording | PacketRecording, choice: Choice) -> int:
-    """Runs a command with the messages of a recording in the place between its arguments."""
+    """Runs a command with the messages of a recording in the place between its arguments; once more when
+    that has learned too late what the first of them need."""
     _nvm.keep_freed_memory()  # the buffers of one cloud serve the next
+    if before[1] != "run":
+        return feed_once(before, after, keeps, recording, choice)
+    with tempfile.TemporaryDirectory(prefix="nvm-again-") as folder:
+        learned = pathlib.Path(folder) / "settings"
+        code = feed_once(before, [*after, "--again", str(learned)], keeps, recording, choice)
+        if code != AGAIN:
+            return code
+        settings = [word for setting in learned.read_text().splitlines() for word in ("--set", setting)]
+    return feed_once(before, [*after, *settings], keeps, recording, choice)
+
+
+def feed_once(before: list[str], after: list[str], keeps, recording, choice: Choice) -> int:
     read_end, write_end = os.pipe()
     with contextlib.suppress(OSError):  # a system may allow less
         fcntl.fcntl(write_end, getattr(fcntl, "F_SETPIPE_SZ", 1031), PIPE_SIZE)

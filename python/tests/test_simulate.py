@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 The nvm authors
-"""The simulator of the package: the same as any other build of it, and what it makes runs."""
+"""The simulator of the package: the same as any other build of it, and what it makes runs, also as a bag."""
 
 import json
 import os
@@ -8,6 +8,7 @@ import pathlib
 
 import numpy as np
 import pytest
+from recordings import CLOUD, IMU, write
 from sequences import RECORD
 from support import nvm as command
 
@@ -68,3 +69,34 @@ def test_meshes_are_seen(tmp_path):
     sequence = nvm.simulate(scene, tmp_path / "sequence", sensor="vlp16", duration=1.0, settings=settings)
     ranges = np.linalg.norm(scans(sequence)[0]["xyz"], axis=1)
     assert np.count_nonzero(ranges > 4.9) > 500  # the screen, 5 m before the start
+
+
+def messages_of(sequence, m):
+    """Those of a driver, an hour later."""
+    rows = (sequence / "scans.csv").read_text().splitlines()[1:]
+    clouds = [(float(row.split(",")[1]), scan) for row, scan in zip(rows, scans(sequence), strict=True)]
+    readings = np.loadtxt(sequence / "imu.csv", delimiter=",", skiprows=1)
+    messages = []
+    for begin, scan in clouds:
+        points = np.empty(len(scan), [("x", "f4"), ("y", "f4"), ("z", "f4"), ("intensity", "f4"), ("time", "f4")])
+        points["x"], points["y"], points["z"] = scan["xyz"].T
+        points["intensity"], points["time"] = scan["intensity"], scan["dt"]
+        messages.append(("/points", CLOUD, begin + 3600.0, m.cloud(begin + 3600.0, points)))
+    for time, *values in readings:
+        messages.append(("/imu", IMU, time + 3600.0, m.imu(time + 3600.0, values[:3], values[3:])))
+    return sorted(messages, key=lambda message: message[2])
+
+
+def test_a_bag_comes_once_more_when_its_imu_was_late(tmp_path):
+    late = {"imu.clock_offset": 0.06}
+    sequence = nvm.simulate("wall5", tmp_path / "walk", sensor="vlp16", duration=14.0, seed=3, settings=late)
+    bag = write(tmp_path / "bag", "mcap", lambda m: messages_of(sequence, m))
+    pose = json.loads((sequence / "meta.json").read_text())["T_imu_lidar"]
+    extrinsic = f"input.T_imu_lidar={pose['translation'] + pose['quaternion_xyzw']}"
+    outcomes = {name: command("run", path, "--out", tmp_path / name, "--set", extrinsic) for name, path in
+                (("from_bag", bag), ("from_folder", sequence))}
+    for name, done in outcomes.items():
+        assert done.returncode == 0 and done.stderr.count("begins again, with imu.time_offset=-0.059") == 1, done.stderr
+        outcomes[name] = np.loadtxt(tmp_path / name / "trajectory.tum")
+    np.testing.assert_allclose(outcomes["from_bag"][:, 1:], outcomes["from_folder"][:, 1:], rtol=0, atol=1e-3)
+    assert sorted(os.listdir(tmp_path / "from_bag")) == sorted(os.listdir(tmp_path / "from_folder"))

@@ -13,6 +13,7 @@ enum Exit : int {
   kExitError = 1,     ///< nothing useful came out, or only what came before an error
   kExitUsage = 2,     ///< arguments that make no sense
   kExitUnusable = 3,  ///< there are results, but most of the run is not usable
+  kExitAgain = 75,    ///< the input is to come once more, see SecondStart
   kExitSignal = 128,
 };
 

@@ -58,20 +58,21 @@ void print_notes(const io::SequenceInfo& info) {
 Ending use_scans(
     io::SequenceReader& reader,
     const Interruption& interruption,
-    const std::function<std::string(const Scan&)>& use) {
+    const std::function<std::optional<std::string>(const Scan&)>& use) {
   Ending ending;
   ProgressBar progress(reader.info().scan_count);
   std::size_t scans = 0;
   try {
     while (interruption.signal() == 0) {
-      const bool is_used = io::doing(fmt::format("working on scan {}", ++scans), [&] {
+      const bool goes_on = io::doing(fmt::format("working on scan {}", ++scans), [&] {
         const std::optional<Scan> scan = reader.next_scan();
-        if (scan) {
-          progress.step(use(*scan));
+        const std::optional<std::string> shown = scan ? use(*scan) : std::nullopt;
+        if (shown) {
+          progress.step(*shown);
         }
-        return scan.has_value();
+        return shown.has_value();
       });
-      if (!is_used) {
+      if (!goes_on) {
         return ending;
       }
     }

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,12 +34,14 @@ struct Ending {
   std::string error;  ///< what went wrong
 };
 
-/// Gives all scans to `use`, which returns what the progress bar shows. An error or a signal ends
-/// it; what came before stays usable.
+inline bool is_whole(const Ending& ending) { return ending.signal == 0 && ending.error.empty(); }
+
+/// Gives all scans to `use`, which returns what the progress bar shows, or nothing to stop. An
+/// error or a signal ends it; what came before stays usable.
 Ending use_scans(
     io::SequenceReader& reader,
     const Interruption& interruption,
-    const std::function<std::string(const Scan&)>& use);
+    const std::function<std::optional<std::string>(const Scan&)>& use);
 
 /// Does `action`. What goes wrong is added to the error of `ending`, and `files` are removed then.
 void attempt(

@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/change_recorder.hpp"
@@ -21,6 +22,7 @@
 #include "app/run_summary.hpp"
 #include "app/run_verdict.hpp"
 #include "app/say.hpp"
+#include "app/second_start.hpp"
 #include "app/session_recorder.hpp"
 #include "io/file/doing.hpp"
 #include "io/sequence/sequence_reader.hpp"
@@ -34,6 +36,7 @@ struct RunArguments {
   std::string input;
   std::string folder;
   std::string stream;
+  std::string again;
   PriorArguments prior;
   RunOptionArguments options;
 };
@@ -55,7 +58,7 @@ using ScanProcess = std::function<lio::FrameResult(const Scan&)>;
 struct Recorders {
   SessionRecorder session;
   ChangeRecorder changes;
-  RunStream stream;
+  RunStream& stream;
 
   void add(const lio::FrameResult& frame, const lio::Pipeline& pipeline) {
     session.add(frame, pipeline);
@@ -77,18 +80,20 @@ ScanProcess scan_process(
   };
 }
 
-/// Runs `process_scan` on all scans. Each frame goes to the files and `summary` as it is finished.
+/// Runs `process_scan` on all scans, until `is_enough` after one. Each frame goes to the files and
+/// `summary` as it is finished.
 Ending process(
     io::SequenceReader& reader,
     const ScanProcess& process_scan,
     const Interruption& interruption,
     RunFiles files,
-    RunSummary& summary) {
-  return use_scans(reader, interruption, [&](const Scan& scan) {
+    RunSummary& summary,
+    const std::function<bool(const lio::FrameResult&)>& is_enough) {
+  return use_scans(reader, interruption, [&](const Scan& scan) -> std::optional<std::string> {
     const lio::FrameResult frame = process_scan(scan);
     summary.add(frame, scan.points.size());
     files.add(frame);
-    return lio::name(frame.status);
+    return is_enough(frame) ? std::nullopt : std::optional<std::string>(lio::name(frame.status));
   });
 }
 
@@ -127,45 +132,81 @@ void print_results(
       wall_seconds);
 }
 
-void run(const RunArguments& arguments, RunOptions& options) {
-  check(arguments.prior, arguments.folder);
-  const auto reader = open_input(arguments.input, options.input);
-  const std::string input = name_of(arguments.input, reader->info());
-  check_apart(input, arguments.folder);
-  const auto pipeline = make_pipeline(arguments.prior, options, reader->info());
-  const Eigen::Vector3d origin = origin_of(arguments.prior);
-  const Interruption interruption;
-  io::ResultFolder results(arguments.folder);
-  announce_unfinished(results);
-  const auto begin = std::chrono::steady_clock::now();
-  RunSummary summary(options.pipeline.inertial.returns.max_count);
-  Recorders recorders{
-      SessionRecorder(results.path(), pipeline->map()),
-      ChangeRecorder(pipeline->map()),
-      RunStream(arguments.stream)};
-  Ending ending = process(
-      *reader,
-      scan_process(*reader, *pipeline, recorders),
-      interruption,
-      RunFiles(results.path(), origin),
-      summary);
-  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
-  print_notes(reader->info());
-  warn(pipeline->findings());
-  const std::size_t map_points = pipeline->map().points().size();
-  check_useful(summary, map_points, ending, input);
-  warn(summary.warnings());
-  attempt({results.path() + "/timing.json"}, ending, [&] {
-    write_timing(results.path(), summary, wall.count());
-  });
-  write_map(results, pipeline->map(), origin, ending);
+/// One way through a recording.
+struct Run {
+  std::unique_ptr<io::SequenceReader> reader;
+  std::unique_ptr<lio::Pipeline> pipeline;
+  Eigen::Vector3d origin;  ///< of the map [m]
+  io::ResultFolder results;
+  RunSummary summary;
+};
+
+/// Writes and prints what is left to say of a `run` that took `seconds`.
+void finish(
+    const RunArguments& arguments, Run& run, Recorders& recorders, Ending ending, double seconds) {
+  const std::string input = name_of(arguments.input, run.reader->info());
+  const std::string& folder = run.results.path();
+  print_notes(run.reader->info());
+  warn(run.pipeline->findings());
+  const std::size_t map_points = run.pipeline->map().points().size();
+  check_useful(run.summary, map_points, ending, input);
+  warn(run.summary.warnings());
+  attempt({folder + "/timing.json"}, ending, [&] { write_timing(folder, run.summary, seconds); });
+  write_map(run.results, run.pipeline->map(), run.origin, ending);
   attempt({recorders.session.path()}, ending, [&] { recorders.session.finish(); });
-  const std::string changed = write_changes(results.path(), recorders.changes, origin, ending);
-  results.publish();
-  print_results(arguments.folder, summary, map_points, wall.count());
+  const std::string changed = write_changes(folder, recorders.changes, run.origin, ending);
+  run.results.publish();
+  print_results(arguments.folder, run.summary, map_points, seconds);
   fmt::print("{}", changed);
   check_ending(ending, arguments.folder);
-  check_usable(summary, map_points, arguments.folder);
+  check_usable(run.summary, map_points, arguments.folder);
+}
+
+/// Returns whether to begin again, in which case it leaves no results.
+bool run_once(
+    const RunArguments& arguments,
+    RunOptions& options,
+    RunStream& stream,
+    SecondStart& second_start) {
+  auto reader = open_input(arguments.input, options.input);
+  check_apart(name_of(arguments.input, reader->info()), arguments.folder);
+  auto pipeline = make_pipeline(arguments.prior, options, reader->info());
+  const Eigen::Vector3d origin = origin_of(arguments.prior);
+  const Interruption interruption;
+  Run run{
+      std::move(reader),
+      std::move(pipeline),
+      origin,
+      io::ResultFolder(arguments.folder),
+      RunSummary(options.pipeline.inertial.returns.max_count)};
+  announce_unfinished(run.results);
+  const auto begin = std::chrono::steady_clock::now();
+  const std::string& folder = run.results.path();
+  const lio::LioMap& map = run.pipeline->map();
+  Recorders recorders{SessionRecorder(folder, map), ChangeRecorder(map), stream};
+  const Ending ending = process(
+      *run.reader,
+      scan_process(*run.reader, *run.pipeline, recorders),
+      interruption,
+      RunFiles(folder, origin),
+      run.summary,
+      [&](const auto& frame) { return second_start.is_due(*run.pipeline, frame.time); });
+  if (is_whole(ending) && second_start.is_due()) {
+    warn(run.pipeline->findings());
+    return true;
+  }
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
+  finish(arguments, run, recorders, ending, wall.count());
+  return false;
+}
+
+void run(const RunArguments& arguments, RunOptions& options) {
+  check(arguments.prior, arguments.folder);
+  RunStream stream(arguments.stream);
+  SecondStart second_start(arguments.input, arguments.again);
+  while (run_once(arguments, options, stream, second_start)) {
+    second_start.begin(options.pipeline.inertial.imu_input);
+  }
 }
 
 }  // namespace
@@ -181,6 +222,7 @@ void add_run_command(CLI::App& app) {
   command->add_option("--out", arguments->folder, "Folder of the results");
   command->add_option(
       "--stream", arguments->stream, "File or pipe for a viewer: scans and map as the run goes on");
+  command->add_option("--again", arguments->again)->group("");  // of who fills a pipe: SecondStart
   add_prior_options(*command, arguments->prior);
   add_run_options(*command, arguments->options);
   command->callback([arguments] {

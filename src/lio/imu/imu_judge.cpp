@@ -117,6 +117,7 @@ ImuVerdict ImuJudge::weigh_rest(double duration) {
     return ImuVerdict::kUnknown;
   }
   accel_scale_ *= *rest_.scale();
+  has_mended_accel_ = true;
   history_.clear();
   return ImuVerdict::kMended;
 }
@@ -130,6 +131,19 @@ std::vector<std::string> ImuJudge::summary() const {
     }
   }
   return lines;
+}
+
+std::optional<ImuInputOptions> ImuJudge::better_input() const {
+  constexpr double kSmallOffset = 0.005;  // that costs next to nothing until it is mended [s]
+  const bool was_elsewhen = std::abs(clocks_.mended()) > kSmallOffset;
+  if (!has_mended_gyro_ && !has_mended_accel_ && !was_elsewhen) {
+    return std::nullopt;
+  }
+  ImuInputOptions better = options_;
+  better.gyro_scale = has_mended_gyro_ ? gyro_scale_ : options_.gyro_scale;
+  better.accel_scale = has_mended_accel_ ? accel_scale_ : options_.accel_scale;
+  better.time_offset -= clocks_.mended();
+  return better;
 }
 
 std::string ImuJudge::frozen_axis() const {
@@ -211,6 +225,7 @@ ImuVerdict ImuJudge::judge_gravity() {
       mended->position_rms <= kMaxRms &&
       is_about(mended->gravity.norm(), gravity_, kGravityError)) {
     mend_accel_unit(felt);
+    has_mended_accel_ = true;
     history_.clear();
     return ImuVerdict::kMended;
   }
@@ -235,6 +250,7 @@ ImuVerdict ImuJudge::judge_sign(ImuVerdict turns) {
     return ImuVerdict::kUnusable;
   }
   accel_scale_ = -accel_scale_;
+  has_mended_accel_ = true;
   history_.clear();
   tell(
       "the accelerometer's sign is wrong: it reads the negative of what the scans' motion and "

@@ -57,6 +57,9 @@ class ImuJudge {
   double take_clock_offset();
   /// All of it [s].
   double clock_offset() const { return clocks_.mended(); }
+  /// Settings with which all that motion has told would have held from the beginning; nothing while
+  /// it has told nothing that counts.
+  std::optional<ImuInputOptions> better_input() const;
   /// The motion at the last pose, once scans and accelerometer agree on it.
   std::optional<MotionFit> motion() const;
 
@@ -87,7 +90,8 @@ class ImuJudge {
   Pose T_body_lidar_;
   double gravity_;
   double gyro_scale_, accel_scale_;
-  bool are_swapped_ = false;      ///< gyroscope and accelerometer
+  bool has_mended_gyro_ = false, has_mended_accel_ = false;  ///< by what motion told
+  bool are_swapped_ = false;                                 ///< gyroscope and accelerometer
   std::vector<ImuSample> first_;  ///< readings as they came, that tell the units
   MotionHistory history_;
   bool has_offset_ = false;    ///< of the clocks, by the last look at the turns

@@ -157,6 +157,7 @@ bool ImuJudge::mend_gyro(const TurnComparison& turns, bool is_explained) {
   } else {
     return false;
   }
+  has_mended_gyro_ = true;
   history_.clear();
   return true;
 }

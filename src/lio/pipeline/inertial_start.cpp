@@ -203,6 +203,10 @@ void InertialPipeline::follow_imu_clock() {
   imu_time_offset_ -= offset;
 }
 
+std::optional<ImuInputOptions> InertialPipeline::better_imu_input() const {
+  return is_imu_usable_ ? judge_.better_input() : std::nullopt;
+}
+
 std::vector<std::string> InertialPipeline::findings() const {
   const bool was_left = contradictions_ > 0 || (is_alone_ && map_->size() > 0);
   const std::string frozen = was_left ? judge_.frozen_axis() : "";

@@ -4,10 +4,12 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "common/sensor_data.hpp"
+#include "lio/imu/imu_input_options.hpp"
 #include "lio/map/lio_map.hpp"
 #include "lio/match/unobserved_directions.hpp"
 #include "lio/scan/deskew.hpp"
@@ -107,6 +109,10 @@ class Pipeline {
   /// Says where the body is in a map that others have begun, at the end of the next scan: about, as
   /// far as scans can be aligned. Only before the first pose.
   virtual void start_at(const Pose& T_map_body) = 0;
+
+  /// What was found out of the IMU too late for the scans until then, as settings to begin again
+  /// with; nothing while there is nothing, or the IMU is of no use.
+  virtual std::optional<ImuInputOptions> better_imu_input() const { return std::nullopt; }
 
   /// What is wrong, or was mended, in the data as a whole. One line each: what was seen, what it
   /// usually means, what mends it.

@@ -49,6 +49,9 @@ class PriorPipeline final : public Pipeline {
   const DeskewedScan& scan() const override { return pipeline_->scan(); }
   const std::vector<Eigen::Vector3f>& normals() const override { return pipeline_->normals(); }
   void start_at(const Pose& T_map_body) override { start_ = Start{T_map_body, false}; }
+  std::optional<ImuInputOptions> better_imu_input() const override {
+    return pipeline_->better_imu_input();
+  }
   std::vector<std::string> findings() const override;
 
  private:
