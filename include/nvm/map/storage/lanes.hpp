@@ -11,14 +11,17 @@
 #include "nvm/core/target.hpp"
 #include "nvm/map/storage/point_chunk.hpp"
 
-#if defined(__SSE2__)
+#if defined(__AVX512VL__)
 #include <immintrin.h>
+#elif defined(__SSE2__)
+#include <emmintrin.h>
 #endif
 
 // Arithmetic on the eight points of a chunk at once, with the vector types of GCC and Clang: SSE2,
 // AVX2 or NEON code from one source. Only what the compilers do not find by themselves is spelled
-// in instructions. Everything is exact integer arithmetic, so every variant gives the same bits
-// (tested against plain loops).
+// in instructions; those of AVX2 by their builtins, because <immintrin.h> takes two thirds as long
+// to include as all of the map. Everything is exact integer arithmetic, so every variant gives the
+// same bits (tested against plain loops).
 NVM_BEGIN_DETAIL_KERNELS
 
 // Passed by reference only: by value their ABI would depend on -march.
@@ -47,10 +50,7 @@ struct LanePoint {
 /// out[i] = pairs[2 i]^2 + pairs[2 i + 1]^2.
 [[gnu::always_inline]] inline void add_squares(const ShortPairs& pairs, IntLanes& out) {
 #if defined(NVM_KERNEL_AVX2)
-  __m256i v;
-  std::memcpy(&v, &pairs, sizeof(v));
-  v = _mm256_madd_epi16(v, v);
-  std::memcpy(&out, &v, sizeof(v));
+  out = __builtin_ia32_pmaddwd256(pairs, pairs);
 #elif defined(__SSE2__)
   __m128i v[2];
   std::memcpy(v, &pairs, sizeof(v));
@@ -90,12 +90,10 @@ struct LanePoint {
 [[gnu::always_inline]] inline std::uint32_t lanes_below(
     const IntLanes& values, std::int32_t limit) {
 #if defined(NVM_KERNEL_AVX2)
-  __m256i v;
-  std::memcpy(&v, &values, sizeof(v));
-  const __m256i sign = _mm256_set1_epi32(std::numeric_limits<std::int32_t>::min());
-  const __m256i below = _mm256_cmpgt_epi32(
-      _mm256_xor_si256(_mm256_set1_epi32(limit), sign), _mm256_xor_si256(v, sign));
-  return static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_castsi256_ps(below)));
+  constexpr std::int32_t kSign = std::numeric_limits<std::int32_t>::min();
+  const IntLanes below = (values ^ kSign) < (IntLanes{} + (limit ^ kSign));
+  using Floats = float __attribute__((vector_size(4 * kLanes)));
+  return static_cast<std::uint32_t>(__builtin_ia32_movmskps256(reinterpret_cast<Floats>(below)));
 #else
   std::uint32_t mask = 0;
   for (int lane = 0; lane < kLanes; ++lane) {
@@ -113,15 +111,24 @@ inline constexpr auto kSetBits = [] {
   std::array<std::uint64_t, 256> table{};
   for (std::size_t mask = 0; mask < table.size(); ++mask) {
     int shift = 0;
-    for (std::uint64_t bit = 0; bit < kLanes; ++bit) {
-      if ((mask >> bit & 1U) != 0) {
-        table[mask] |= bit << shift;
-        shift += 8;
-      }
+    for (std::size_t left = mask; left != 0; left &= left - 1, shift += 8) {
+      table[mask] |= static_cast<std::uint64_t>(__builtin_ctzll(left)) << shift;
     }
   }
   return table;
 }();
+
+/// The same, one lane each.
+[[gnu::always_inline]] inline void set_bits(std::uint32_t mask, IntLanes& out) {
+#ifdef __clang__
+  std::uint8_t __attribute__((vector_size(kLanes))) bits;
+  std::memcpy(&bits, &kSetBits[mask], sizeof(bits));
+  out = __builtin_convertvector(bits, IntLanes);
+#else  // GCC would unpack them one by one
+  const long long __attribute__((vector_size(16))) bits{static_cast<long long>(kSetBits[mask])};
+  out = __builtin_ia32_pmovzxbd256(reinterpret_cast<char __attribute__((vector_size(16)))>(bits));
+#endif
+}
 #endif
 
 /// Writes the lanes of `mask` to `out` without gaps. Writes up to kLanes elements, garbage behind
@@ -134,11 +141,9 @@ inline constexpr auto kSetBits = [] {
   v = _mm256_maskz_compress_epi32(static_cast<__mmask8>(mask), v);
   std::memcpy(out, &v, sizeof(v));
 #elif defined(NVM_KERNEL_AVX2)
-  __m256i v;
-  std::memcpy(&v, &values, sizeof(v));
-  const __m256i order =
-      _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(&kSetBits[mask])));
-  v = _mm256_permutevar8x32_epi32(v, order);
+  IntLanes order;
+  set_bits(mask, order);
+  const IntLanes v = __builtin_ia32_permvarsi256(values, order);
   std::memcpy(out, &v, sizeof(v));
 #else
   for (; mask != 0; mask &= mask - 1) {
