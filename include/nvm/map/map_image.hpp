@@ -40,7 +40,7 @@ class MapImage {
     bool ok = std::fwrite(room, 1, sizeof(room), file) == sizeof(room);
     detail::ImageOutput output(file);
     output.write(head.data(), head.size());
-    for (const detail::StateWriter::Array& array : state.arrays) {
+    for (const detail::StateWriter::Part& array : state.arrays) {
       output.write(array.data, array.bytes);
     }
     const Header header{

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
-#include <memory>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -25,11 +24,6 @@ namespace nvm {
 inline namespace NVM_TARGET {}  // namespace NVM_TARGET
 namespace detail {
 inline namespace NVM_TARGET {
-
-struct FileCloser {
-  void operator()(std::FILE* file) const noexcept { std::fclose(file); }
-};
-using File = std::unique_ptr<std::FILE, FileCloser>;
 
 #if defined(__unix__) || defined(__APPLE__)
 inline constexpr const char* kCreate = "wbx";  // refuses a file that exists

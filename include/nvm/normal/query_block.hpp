@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <tuple>
-#include <utility>
 #include <vector>
 
 #include "nvm/core/target.hpp"
@@ -44,9 +42,9 @@ struct BasicQueryBlock {
         z(load_lanes<Lanes>(&order.z[begin])),
         sq_radius(load_lanes<Lanes>(&order.sq_radius[begin])) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      std::tie(min[axis], max[axis]) = range(order.coordinate(axis));
+      find_range(order.coordinate(axis), min[axis], max[axis]);
     }
-    std::tie(min_sq_radius, max_sq_radius) = range(order.sq_radius);
+    find_range(order.sq_radius, min_sq_radius, max_sq_radius);
   }
 
   /// How many blocks `queries` fill.
@@ -55,13 +53,14 @@ struct BasicQueryBlock {
   }
 
  private:
-  std::pair<float, float> range(const std::vector<float>& values) const {
-    float low = values[begin], high = values[begin];
+  void find_range(const std::vector<float>& values, float& low, float& high) const {
+    float min_value = values[begin], max_value = values[begin];  // in registers
     for (std::size_t i = begin + 1; i < end; ++i) {
-      low = std::min(low, values[i]);
-      high = std::max(high, values[i]);
+      min_value = std::min(min_value, values[i]);
+      max_value = std::max(max_value, values[i]);
     }
-    return {low, high};
+    low = min_value;
+    high = max_value;
   }
 };
 

@@ -26,18 +26,17 @@ struct AxisWindow {
 constexpr AxisWindow axis_window(int first, int last) {
   constexpr std::array<int, 3> kStride{1, kBrickEdge, kBrickEdge * kBrickEdge};
   constexpr std::array<int, 3> kAroundStride{1, 3, 9};
+  // The cells at place 0 along each axis.
+  constexpr std::array<std::uint64_t, 3> kFirstCells{
+      0x1111111111111111U, 0x000f000f000f000fU, 0x000000000000ffffU};
   AxisWindow window;
   window.is_wide = first < 0 || last >= kBrickEdge;
-  const std::array<int, 2> offset{0, first < 0 ? -1 : 1};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (std::size_t brick = 0; brick < 2; ++brick) {
-      window.around_step[axis][brick] = offset[brick] * kAroundStride[axis];
-      for (int cell = 0; cell < kBrickCells; ++cell) {
-        const int place = cell / kStride[axis] % kBrickEdge + kBrickEdge * offset[brick];
-        if (first <= place && place <= last) {
-          window.cells[axis][brick] |= std::uint64_t{1} << cell;
-        }
-      }
+    window.around_step[axis][1] = first < 0 ? -kAroundStride[axis] : kAroundStride[axis];
+    for (int place = first; place <= last; ++place) {
+      const std::size_t brick = place < 0 || place >= kBrickEdge ? 1 : 0;
+      const int inside = place & (kBrickEdge - 1);
+      window.cells[axis][brick] |= kFirstCells[axis] << inside * kStride[axis];
     }
   }
   return window;

@@ -90,6 +90,11 @@ class ImageOutput {
   bool ok_ = true;
 };
 
+struct FileCloser {
+  void operator()(std::FILE* file) const noexcept { std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, FileCloser>;
+
 /// A file that is read, or mapped part by part where that can be done.
 class ImageFile {
  public:
@@ -108,13 +113,15 @@ class ImageFile {
   }
   /// All of it, also where it has no size, as a pipe.
   std::vector<std::uint8_t> contents() const {
+    constexpr std::size_t kBlock = std::size_t{1} << 20;
     std::vector<std::uint8_t> bytes;
-    std::vector<std::uint8_t> block(std::size_t{1} << 20);
     std::rewind(file_.get());
-    for (std::size_t count = block.size(); count == block.size();) {
-      count = std::fread(block.data(), 1, block.size(), file_.get());
-      bytes.insert(bytes.end(), block.begin(), block.begin() + static_cast<std::ptrdiff_t>(count));
-    }
+    std::size_t size = 0;
+    do {
+      bytes.resize(size + kBlock);
+      size += std::fread(&bytes[size], 1, kBlock, file_.get());
+    } while (size == bytes.size());
+    bytes.resize(size);
     if (std::ferror(file_.get()) != 0) {
       throw std::runtime_error("cannot be read");
     }
@@ -165,11 +172,7 @@ class ImageFile {
   }
 
  private:
-  struct Closer {
-    void operator()(std::FILE* file) const noexcept { std::fclose(file); }
-  };
-
-  std::unique_ptr<std::FILE, Closer> file_;
+  File file_;
 };
 
 }  // namespace NVM_TARGET

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <memory>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -19,7 +18,7 @@ inline namespace NVM_TARGET {
 
 /// Collects what VoxelStorage::visit_state() shows.
 struct StateWriter {
-  struct Array {
+  struct Part {
     const void* data;
     std::size_t bytes;
   };
@@ -36,7 +35,7 @@ struct StateWriter {
   }
 
   std::vector<std::uint64_t> numbers;
-  std::vector<Array> arrays;
+  std::vector<Part> arrays;
 };
 
 /// Gives it back from an image, whose arrays are mapped. Throws std::runtime_error for numbers that
@@ -69,18 +68,14 @@ class StateReader {
   }
 
   template <class T, class Allocator>
-  void array(
-      std::unique_ptr<T[], ArrayDeleter<Allocator>>& array,
-      std::size_t used,
-      std::size_t capacity) {
+  void array(Array<T, Allocator>& array, std::size_t used, std::size_t capacity) {
     const std::size_t bytes = used * sizeof(T);
     const std::size_t reserved = whole_pages(capacity * sizeof(T));
     if (offset_ + whole_pages(bytes) > file_.size()) {
       throw std::runtime_error("is truncated");  // its pages would not be there
     }
     if (void* memory = file_.map(offset_, bytes, reserved)) {
-      const ArrayDeleter<Allocator> unmapping{&ImageFile::unmap, reserved};
-      array = std::unique_ptr<T[], ArrayDeleter<Allocator>>(static_cast<T*>(memory), unmapping);
+      array = Array<T, Allocator>(memory, &ImageFile::unmap, reserved);
       checksum_.add(memory, whole_pages(bytes));
     } else if (used > 0) {
       read(array, used, capacity);
@@ -101,10 +96,7 @@ class StateReader {
 
   /// Where nothing can be mapped.
   template <class T, class Allocator>
-  void read(
-      std::unique_ptr<T[], ArrayDeleter<Allocator>>& array,
-      std::size_t used,
-      std::size_t capacity) {
+  void read(Array<T, Allocator>& array, std::size_t used, std::size_t capacity) {
     std::vector<unsigned char> pages(whole_pages(used * sizeof(T)));
     file_.read(offset_, pages.data(), pages.size());
     checksum_.add(pages.data(), pages.size());

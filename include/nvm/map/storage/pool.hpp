@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
-#include <memory>
 #include <new>
 #include <type_traits>
 #include <utility>
@@ -22,15 +21,42 @@ inline constexpr std::uint32_t kNone = 0xffffffffU;
 
 inline constexpr std::size_t kArrayAlignment = 64;
 
-/// Gives memory back to `Allocator`, or to whoever else it came from (map_image.hpp).
-template <class Allocator>
-struct ArrayDeleter {
-  void operator()(void* memory) const noexcept {
-    release == nullptr ? Allocator::release(memory) : release(memory, bytes);
+/// Owns elements, and gives their memory back to `Allocator` or to whoever else it came from
+/// (map_image.hpp). One std::unique_ptr costs as much to include as all of these.
+template <class T, class Allocator>
+class Array {
+ public:
+  using Release = void (*)(void* memory, std::size_t bytes) noexcept;
+
+  Array(std::nullptr_t /*none*/ = nullptr) noexcept {}
+  explicit Array(void* memory, Release release = nullptr, std::size_t bytes = 0) noexcept
+      : elements_(static_cast<T*>(memory)), release_(release), bytes_(bytes) {}
+
+  Array(Array&& other) noexcept
+      : elements_(other.elements_), release_(other.release_), bytes_(other.bytes_) {
+    other.elements_ = nullptr;
+  }
+  Array& operator=(Array&& other) noexcept {
+    std::swap(elements_, other.elements_);
+    std::swap(release_, other.release_);
+    std::swap(bytes_, other.bytes_);
+    return *this;
+  }
+  ~Array() {
+    if (elements_ != nullptr) {
+      release_ == nullptr ? Allocator::release(elements_) : release_(elements_, bytes_);
+    }
   }
 
-  void (*release)(void* memory, std::size_t bytes) noexcept = nullptr;
-  std::size_t bytes = 0;
+  T* get() const noexcept { return elements_; }
+  T& operator[](std::size_t i) const noexcept { return elements_[i]; }
+  bool operator==(std::nullptr_t) const noexcept { return elements_ == nullptr; }
+  bool operator!=(std::nullptr_t) const noexcept { return elements_ != nullptr; }
+
+ private:
+  T* elements_ = nullptr;
+  Release release_ = nullptr;
+  std::size_t bytes_ = 0;
 };
 
 /// Elements that are neither constructed nor touched: the operating system commits a page when it
@@ -38,37 +64,37 @@ struct ArrayDeleter {
 struct AlignedNew {
   /// Throws std::bad_alloc.
   template <class T>
-  static std::unique_ptr<T[], ArrayDeleter<AlignedNew>> allocate(std::size_t count) {
+  static Array<T, AlignedNew> allocate(std::size_t count) {
     static_assert(std::is_trivially_destructible_v<T> && alignof(T) <= kArrayAlignment);
     if (count > std::numeric_limits<std::size_t>::max() / sizeof(T)) {
       throw std::bad_alloc();
     }
     void* memory = ::operator new (count * sizeof(T), std::align_val_t{kArrayAlignment});
-    return std::unique_ptr<T[], ArrayDeleter<AlignedNew>>(static_cast<T*>(memory));
+    return Array<T, AlignedNew>(memory);
   }
   static void release(void* memory) noexcept {
     ::operator delete (memory, std::align_val_t{kArrayAlignment});
   }
 };
 template <class T>
-using RawArray = std::unique_ptr<T[], ArrayDeleter<AlignedNew>>;
+using RawArray = Array<T, AlignedNew>;
 
 /// Elements of all-zero bytes, committed when first written.
 struct ZeroedMalloc {
   /// Throws std::bad_alloc.
   template <class T>
-  static std::unique_ptr<T[], ArrayDeleter<ZeroedMalloc>> allocate(std::size_t count) {
+  static Array<T, ZeroedMalloc> allocate(std::size_t count) {
     static_assert(std::is_trivially_copyable_v<T>);
     void* memory = std::calloc(count, sizeof(T));
     if (memory == nullptr) {
       throw std::bad_alloc();
     }
-    return std::unique_ptr<T[], ArrayDeleter<ZeroedMalloc>>(static_cast<T*>(memory));
+    return Array<T, ZeroedMalloc>(memory);
   }
   static void release(void* memory) noexcept { std::free(memory); }
 };
 template <class T>
-using ZeroedArray = std::unique_ptr<T[], ArrayDeleter<ZeroedMalloc>>;
+using ZeroedArray = Array<T, ZeroedMalloc>;
 
 template <class T>
 RawArray<T> allocate_uninitialized(std::size_t count) {
