@@ -27,15 +27,26 @@ inline bool is_number(double value) noexcept { return magnitude(value) <= 0x7ff0
 /// True for zero, positive numbers and infinity.
 inline bool is_distance(double value) noexcept { return is_number(value) && value >= 0.0; }
 
+template <class Matrix, class Condition>
+bool holds_for_all(const Matrix& matrix, const Condition& holds) noexcept {
+  bool result = true;
+  for (decltype(matrix.rows()) i = 0; i < matrix.rows(); ++i) {
+    for (decltype(matrix.cols()) j = 0; j < matrix.cols(); ++j) {
+      result = result && holds(static_cast<double>(matrix(i, j)));
+    }
+  }
+  return result;
+}
+
 /// For an Eigen vector or matrix of floats or doubles.
 template <class Matrix>
 bool all_finite(const Matrix& matrix) noexcept {
-  return matrix.unaryExpr([](auto value) { return is_finite(static_cast<double>(value)); }).all();
+  return holds_for_all(matrix, [](double value) { return is_finite(value); });
 }
 
 template <class Matrix>
 bool all_numbers(const Matrix& matrix) noexcept {
-  return matrix.unaryExpr([](auto value) { return is_number(static_cast<double>(value)); }).all();
+  return holds_for_all(matrix, [](double value) { return is_number(value); });
 }
 
 }  // namespace NVM_TARGET

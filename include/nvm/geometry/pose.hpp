@@ -9,6 +9,7 @@
 
 #include "nvm/core/finite.hpp"
 #include "nvm/core/target.hpp"
+#include "nvm/geometry/coordinates.hpp"
 
 namespace nvm {
 inline namespace NVM_TARGET {
@@ -17,6 +18,17 @@ inline namespace NVM_TARGET {
 /// alignment of Eigen::Isometry3d depends on -march and would make it part of every user's ABI.
 using Pose = Eigen::Transform<double, 3, Eigen::Isometry, Eigen::DontAlign>;
 
+/// A copy of the rotation R_a_b.
+inline Eigen::Matrix3d rotation_of(const Pose& T_a_b) {
+  Eigen::Matrix3d R;
+  for (int j = 0; j < 3; ++j) {
+    for (int i = 0; i < 3; ++i) {
+      R(i, j) = T_a_b(i, j);
+    }
+  }
+  return R;
+}
+
 /// Skew-symmetric matrix [v]x with [v]x w = v x w.
 inline Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
   Eigen::Matrix3d m;
@@ -24,22 +36,28 @@ inline Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
   return m;
 }
 
-/// Rotation by the vector `rotation` [rad]: Exp: R^3 -> SO(3). Exact for the zero vector.
-inline Eigen::Matrix3d so3_exp(const Eigen::Vector3d& rotation) {
-  const double angle = rotation.norm();
+// Those that need more of Eigen are templates on what they are given (coordinates.hpp).
+
+/// Rotation by the vector `rotation` [rad], any expression or { x, y, z }: Exp: R^3 -> SO(3). Exact
+/// for the zero vector.
+template <class Vector = Eigen::Vector3d>
+Eigen::Matrix3d so3_exp(const Vector& rotation) {
+  using Real = typename Vector::Scalar;
+  const Eigen::Matrix<Real, 3, 1> v = rotation;
+  const double angle = v.norm();
   const double half_sinc =
       angle < 1e-8 ? 0.5 - angle * angle / 48.0 : std::sin(0.5 * angle) / angle;
-  Eigen::Quaterniond q(
-      std::cos(0.5 * angle),
-      half_sinc * rotation.x(),
-      half_sinc * rotation.y(),
-      half_sinc * rotation.z());
+  const Eigen::Quaternion<Real> q(
+      std::cos(0.5 * angle), half_sinc * v.x(), half_sinc * v.y(), half_sinc * v.z());
   return q.normalized().toRotationMatrix();
 }
 
-/// Rotation vector [rad] of `R`, of length at most pi: Log: SO(3) -> R^3.
-inline Eigen::Vector3d so3_log(const Eigen::Matrix3d& R) {
-  Eigen::Quaterniond q(R);
+/// Rotation vector [rad] of `rotation`, of length at most pi: Log: SO(3) -> R^3.
+template <class Matrix>
+Eigen::Vector3d so3_log(const Matrix& rotation) {
+  using Real = typename Matrix::Scalar;
+  const Eigen::Matrix<Real, 3, 3> R = rotation;
+  Eigen::Quaternion<Real> q(R);
   if (q.w() < 0.0) {
     q.coeffs() = -q.coeffs();
   }
@@ -54,15 +72,17 @@ inline bool is_rigid(const Pose& pose, double tolerance = 1e-6) {
   if (!detail::all_finite(pose.matrix())) {
     return false;
   }
-  const Eigen::Matrix3d R = pose.linear();
-  double error = 0.0;  // of R^T R; written out, because Eigen's products are nobody's own code
+  const auto column = [&pose](int j) {
+    return detail::per_axis([&](int axis) { return pose(axis, j); });
+  };
+  double error = 0.0;  // of R^T R
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j <= i; ++j) {
-      const double dot = R(0, i) * R(0, j) + R(1, i) * R(1, j) + R(2, i) * R(2, j);
+      const double dot = detail::dot(column(i), column(j));
       error = std::max(error, std::abs(dot - (i == j ? 1.0 : 0.0)));
     }
   }
-  return error <= tolerance && R.determinant() > 0.0;
+  return error <= tolerance && detail::dot(detail::cross(column(0), column(1)), column(2)) > 0.0;
 }
 
 }  // namespace NVM_TARGET

@@ -4,7 +4,6 @@
 #define NVM_GEOMETRY_SYMMETRIC_EIGEN_HPP
 
 #include <Eigen/Core>
-#include <tuple>
 #include <type_traits>
 
 #include "nvm/core/target.hpp"
@@ -232,7 +231,9 @@ struct EigenDecomposition {
 inline EigenDecomposition eigen_decomposition(const Eigen::Matrix3d& m) {
   const Eigen3<double> e =
       eigen_decomposition(Symmetric3<double>{m(0, 0), m(1, 0), m(2, 0), m(1, 1), m(2, 1), m(2, 2)});
-  const auto& [s, t, l] = std::tie(e.smallest_vector, e.middle_vector, e.largest_vector);
+  const Vector3Of<double>& s = e.smallest_vector;
+  const Vector3Of<double>& t = e.middle_vector;
+  const Vector3Of<double>& l = e.largest_vector;
   EigenDecomposition result;
   result.values << e.smallest, e.middle, e.largest;
   result.vectors << s.x, t.x, l.x, s.y, t.y, l.y, s.z, t.z, l.z;

@@ -25,18 +25,21 @@ using Trajectory = std::vector<StampedPose>;
 inline namespace NVM_TARGET {
 
 /// The pose a share `alpha` (0 to 1) of the way from `a` to `b`: slerp for the rotation, a straight
-/// line for the position.
-inline Pose interpolate(const Pose& a, const Pose& b, double alpha) {
-  const Eigen::Quaterniond q =
-      Eigen::Quaterniond(a.linear()).slerp(alpha, Eigen::Quaterniond(b.linear()));
-  Pose pose = Pose::Identity();
+/// line for the position. `Transform`: Pose, or Eigen::Isometry3d.
+template <class Transform>
+Transform interpolate(const Transform& a, const Transform& b, double alpha) {
+  using Quaternion = Eigen::Quaternion<typename Transform::Scalar>;
+  const Quaternion q = Quaternion(a.linear()).slerp(alpha, Quaternion(b.linear()));
+  Transform pose = Transform::Identity();
   pose.linear() = q.toRotationMatrix();
   pose.translation() = (1.0 - alpha) * a.translation() + alpha * b.translation();
   return pose;
 }
 
-/// The pose of `trajectory` at `time` [s], interpolated; nothing outside its time span.
-inline std::optional<Pose> pose_at(const Trajectory& trajectory, double time) {
+/// The pose of `trajectory`, or any such range, at `time` [s], interpolated; nothing outside its
+/// time span.
+template <class Poses>
+std::optional<Pose> pose_at(const Poses& trajectory, double time) {
   const auto next = std::lower_bound(
       trajectory.begin(), trajectory.end(), time, [](const StampedPose& pose, double t) {
         return pose.time < t;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "nvm/core/target.hpp"
+#include "nvm/geometry/coordinates.hpp"
 #include "nvm/map/map_point.hpp"
 #include "nvm/map/view_direction.hpp"
 
@@ -44,16 +45,17 @@ inline bool is_sighting_length(float sq_length) {
 
 /// True for a vector of half a unit's length.
 inline bool is_sighting(const Eigen::Vector3f& normal) {
-  return is_sighting_length(normal.squaredNorm());
+  return is_sighting_length(detail::sq_norm(normal));
 }
 
 /// `normal`, or zero for a sighting: for those who ask for planes only.
 inline Eigen::Vector3f plane_normal(const Eigen::Vector3f& normal) {
-  return is_sighting(normal) ? Eigen::Vector3f(Eigen::Vector3f::Zero()) : normal;
+  return is_sighting(normal) ? detail::zeros<Eigen::Vector3f>() : normal;
 }
 /// The points of a map but its sightings: those that are known to lie on a surface.
-inline std::vector<MapPoint> without_sightings(std::vector<MapPoint> points) {
-  const auto is_seen = [](const MapPoint& point) { return is_sighting(point.normal); };
+template <class Point>
+std::vector<Point> without_sightings(std::vector<Point> points) {
+  const auto is_seen = [](const Point& point) { return is_sighting(point.normal); };
   points.erase(std::remove_if(points.begin(), points.end(), is_seen), points.end());
   return points;
 }

@@ -8,6 +8,7 @@
 #include "nvm/core/finite.hpp"
 #include "nvm/core/point_access.hpp"
 #include "nvm/core/target.hpp"
+#include "nvm/geometry/coordinates.hpp"
 
 namespace nvm {
 inline namespace NVM_TARGET {
@@ -20,7 +21,8 @@ Eigen::Vector3f view_direction(const Point& point, const Eigen::Vector3d& origin
   const Eigen::Vector3d ray = origin - position(point);
   const double length = ray.norm();
   const bool valid = detail::is_finite(length) && length > 0.0 && length <= 1e12;
-  return valid ? Eigen::Vector3f((ray / length).cast<float>()) : Eigen::Vector3f::Zero();
+  return detail::per_axis(
+      [&](int axis) { return valid ? static_cast<float>(ray[axis] / length) : 0.0F; });
 }
 
 /// The view directions of a range of points, computed when read: `map.insert(points,

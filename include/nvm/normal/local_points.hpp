@@ -11,6 +11,7 @@
 #include "nvm/core/finite.hpp"
 #include "nvm/core/point_access.hpp"
 #include "nvm/core/target.hpp"
+#include "nvm/geometry/coordinates.hpp"
 #include "nvm/normal/normal_options.hpp"
 #include "nvm/normal/normal_result.hpp"
 
@@ -84,7 +85,7 @@ class Localizer {
       const Eigen::Vector3d& viewpoint,
       std::size_t i,
       LocalPoints& local) const {
-    const double sq_range = (point - viewpoint).squaredNorm();
+    const double sq_range = sq_norm(difference(point, viewpoint));
     if (magnitude(sq_range) > magnitude(sq_max_range_)) {  // NaN is
       return all_finite(point) && all_finite(viewpoint) ? NormalStatus::kTooFar
                                                         : NormalStatus::kNonFinite;
@@ -92,8 +93,8 @@ class Localizer {
     if (sq_range < sq_min_range_) {
       return NormalStatus::kTooNear;
     }
-    const Eigen::Vector3d offset = point - origin_;
-    if (!(offset.cwiseAbs().maxCoeff() <= LocalPoints::kMaxOffset)) {
+    const Eigen::Vector3d offset = difference(point, origin_);
+    if (!on_all_axes([&](int axis) { return std::abs(offset[axis]) <= LocalPoints::kMaxOffset; })) {
       return NormalStatus::kFarOrigin;
     }
     local.x[i] = static_cast<float>(offset.x());

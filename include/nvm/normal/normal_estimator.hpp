@@ -14,6 +14,7 @@
 #include "nvm/core/processor.hpp"
 #include "nvm/core/require.hpp"
 #include "nvm/core/target.hpp"
+#include "nvm/geometry/coordinates.hpp"
 #include "nvm/normal/block_search.hpp"
 #include "nvm/normal/block_tree.hpp"
 #include "nvm/normal/cell_grid.hpp"
@@ -51,7 +52,7 @@ class NormalEstimator {
       const Points& points, const Viewpoints& viewpoints, const Executor& executor = {}) & {
     prepare_cloud(points, viewpoints, executor);
     result_.status = cloud_status_;
-    clear_planes(points.size());
+    clear_planes(points);
     if (options_.method == NormalMethod::kPerCell) {
       solve_cells(executor);
     } else {
@@ -76,7 +77,7 @@ class NormalEstimator {
     prepare_cloud(points, viewpoint, executor);
     localize(queries, viewpoint, position(viewpoint), result_.status, executor);
     sorter_.sort(local_, result_.status, sort_edge(), queries_);
-    clear_planes(queries.size());
+    clear_planes(queries);
     solve(queries_, result_, executor);
     finish(queries, viewpoint, executor);
     return result_;
@@ -121,7 +122,7 @@ class NormalEstimator {
           return viewpoint;
         }
       }
-      return Eigen::Vector3d::Zero();
+      return detail::zeros<Eigen::Vector3d>();
     }
   }
 
@@ -149,8 +150,10 @@ class NormalEstimator {
     });
   }
 
-  void clear_planes(std::size_t size) {
-    result_.normals.assign(size, Eigen::Vector3f::Zero());
+  template <class Points>
+  void clear_planes(const Points& points) {
+    const auto size = static_cast<std::size_t>(points.size());
+    result_.normals.assign(size, detail::zeros<Eigen::Vector3f>());
     result_.plane_offsets.assign(size, 0.0F);
     result_.plane_variances.assign(size, 0.0F);
   }
@@ -245,9 +248,10 @@ class NormalEstimator {
     executor.for_blocks(points.size(), kPointGrain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const Eigen::Vector3d ray = position(points[i]) - detail::viewpoint_of(viewpoints, i);
+        Eigen::Vector3f& normal = result_.normals[i];
         if (result_.status[i] == NormalStatus::kValid &&
-            ray.dot(result_.normals[i].template cast<double>()) > 0.0) {
-          result_.normals[i] = -result_.normals[i];
+            detail::dot(ray, detail::cast<double>(normal)) > 0.0) {
+          normal = {-normal.x(), -normal.y(), -normal.z()};
           result_.plane_offsets[i] = -result_.plane_offsets[i];
         }
       }

@@ -53,7 +53,7 @@ struct AlignResult {
   /// (perfect) to 1 (nothing fits). Ranks poses of one scan.
   double cost = 1.0;
   /// Weighted information of the pose (sum w J J^T over a PoseStep) [1/m^2 per residual of 1 m].
-  PoseMatrix information = PoseMatrix::Zero();
+  PoseMatrix information = detail::zeros<PoseMatrix>();
   std::array<double, 6> observability{};  ///< ascending, see PoseSolution
   int degenerate_directions = 0;          ///< 6 minus the rank of what the scan tells
 

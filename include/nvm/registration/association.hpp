@@ -11,6 +11,7 @@
 #include "nvm/core/finite.hpp"
 #include "nvm/core/require.hpp"
 #include "nvm/core/target.hpp"
+#include "nvm/geometry/coordinates.hpp"
 #include "nvm/map/map_concept.hpp"
 #include "nvm/map/neighbor.hpp"
 #include "nvm/map/sighting.hpp"
@@ -83,9 +84,9 @@ Association associate(
     result.status = AssociationStatus::kNoPlane;
     return result;
   }
-  result.normal = plane->normal.dot(normal.cast<double>()) < 0.0 ? Eigen::Vector3d(-plane->normal)
-                                                                 : plane->normal;
-  result.distance = result.normal.dot(point - plane->centroid);
+  const double sign = detail::dot(plane->normal, detail::cast<double>(normal)) < 0.0 ? -1.0 : 1.0;
+  result.normal = detail::per_axis([&](int axis) { return sign * plane->normal[axis]; });
+  result.distance = detail::dot(result.normal, detail::difference(point, plane->centroid));
   if (!(std::abs(result.distance) <= options.max_plane_distance)) {
     result.status = AssociationStatus::kTooFar;
     return result;

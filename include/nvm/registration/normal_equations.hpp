@@ -46,17 +46,18 @@ inline namespace NVM_TARGET {
 /// The linearised problem: minimise 1/2 s^T information s + gradient . s over the PoseStep s.
 /// Sums of it over parts of a scan, added in a fixed order, give the same bits whoever made them.
 struct NormalEquations {
-  PoseMatrix information = PoseMatrix::Zero();  ///< sum w J J^T
-  PoseStep gradient = PoseStep::Zero();         ///< sum w J e
-  double sum_weights = 0.0;                     ///< sum w
-  double sum_sq_ranges = 0.0;                   ///< sum w |p_scan|^2 [m^2]
-  double sum_sq_distances = 0.0;                ///< of valid points to their planes [m^2]
+  PoseMatrix information = detail::zeros<PoseMatrix>();  ///< sum w J J^T
+  PoseStep gradient = detail::zeros<PoseStep>();         ///< sum w J e
+  double sum_weights = 0.0;                              ///< sum w
+  double sum_sq_ranges = 0.0;                            ///< sum w |p_scan|^2 [m^2]
+  double sum_sq_distances = 0.0;                         ///< of valid points to their planes [m^2]
   AssociationCounts counts;
 
   /// Adds what `p_scan` and its plane say about the pose with rotation `R_map_scan`.
+  template <class Rotation>
   void add(
       const Eigen::Vector3d& p_scan,
-      const Eigen::Matrix3d& R_map_scan,
+      const Eigen::MatrixBase<Rotation>& R_map_scan,
       const Association& association,
       const RobustKernel& kernel) {
     counts.add(association.status);
@@ -65,7 +66,7 @@ struct NormalEquations {
     }
     const double residual = association.weight * association.distance;
     const double weight = kernel.weight(residual) * association.weight * association.weight;
-    const PoseStep jacobian = point_to_plane_jacobian(
+    const auto jacobian = point_to_plane_jacobian(
         p_scan, R_map_scan.transpose() * association.normal, association.normal);
     information.noalias() += (weight * jacobian) * jacobian.transpose();
     gradient += (weight * association.distance) * jacobian;
@@ -88,8 +89,12 @@ struct NormalEquations {
   }
 
   NormalEquations& operator+=(const NormalEquations& other) {
-    information += other.information;
-    gradient += other.gradient;
+    for (int i = 0; i < 6; ++i) {
+      for (int j = 0; j < 6; ++j) {
+        information(j, i) += other.information(j, i);
+      }
+      gradient[i] += other.gradient[i];
+    }
     sum_weights += other.sum_weights;
     sum_sq_ranges += other.sum_sq_ranges;
     sum_sq_distances += other.sum_sq_distances;

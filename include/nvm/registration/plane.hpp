@@ -3,10 +3,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 
 #include "nvm/core/target.hpp"
+#include "nvm/geometry/coordinates.hpp"
 #include "nvm/geometry/moments.hpp"
 #include "nvm/geometry/symmetric_eigen.hpp"
 #include "nvm/map/neighbor.hpp"
@@ -33,23 +36,23 @@ inline std::optional<Plane> fit_plane(const Neighbor* neighbors, std::size_t cou
   const Eigen::Vector3d origin = neighbors[0].position;
   Moments<double> moments;
   for (std::size_t i = 0; i < count; ++i) {
-    const Eigen::Vector3d offset = neighbors[i].position - origin;
+    const Eigen::Vector3d offset = detail::difference(neighbors[i].position, origin);
     moments.add(1.0, offset.x(), offset.y(), offset.z());
   }
   const Eigen3<double> eigen = eigen_decomposition(scatter(moments));
   const double share = 1.0 / static_cast<double>(count);
-  const Eigen::Vector3d deviation =
-      (share * Eigen::Vector3d(eigen.smallest, eigen.middle, eigen.largest))
-          .cwiseMax(0.0)
-          .cwiseSqrt();
+  const auto root = [share](double sum) { return std::sqrt(std::max(share * sum, 0.0)); };
+  const Eigen::Vector3d deviation(root(eigen.smallest), root(eigen.middle), root(eigen.largest));
   constexpr double kCollinear = 1e-3;
   if (!(deviation[2] > 0.0) || deviation[1] < kCollinear * deviation[2]) {
     return std::nullopt;
   }
   const auto& [x, y, z] = eigen.smallest_vector;
   return Plane{
-      origin + share * Eigen::Vector3d(moments.x, moments.y, moments.z),
-      Eigen::Vector3d(x, y, z),
+      {origin.x() + share * moments.x,
+       origin.y() + share * moments.y,
+       origin.z() + share * moments.z},
+      {x, y, z},
       (deviation[1] - deviation[0]) / deviation[2],
       deviation};
 }

@@ -18,7 +18,7 @@ inline namespace NVM_TARGET {
 
 /// The step that solves NormalEquations, and what the scan tells about each direction.
 struct PoseSolution {
-  PoseStep step = PoseStep::Zero();
+  PoseStep step = detail::zeros<PoseStep>();
   /// Eigenvalues of the information per unit of weight, ascending, with rotations measured by the
   /// arc [m] that they make at the points' mean range: 0 (unobserved) to about 1 for each.
   std::array<double, 6> observability{};
@@ -28,22 +28,26 @@ struct PoseSolution {
 /// Solves `equations`; directions whose observability is below `min_observability` stay as they
 /// are (solution remapping: Zhang, Kaess and Singh, "On degeneracy of optimization-based state
 /// estimation problems", ICRA 2016), so that a corridor or a lone wall leaves the guess untouched
-/// where it says nothing.
-inline PoseSolution solve(const NormalEquations& equations, double min_observability) {
+/// where it says nothing. `equations`: NormalEquations, or what else has its sums.
+template <class Equations>
+PoseSolution solve(const Equations& equations, double min_observability) {
   PoseSolution solution;
   if (!(equations.sum_weights > 0.0) || !detail::all_finite(equations.information)) {
     solution.degenerate_directions = 6;
     return solution;
   }
   const double mean_range = std::sqrt(equations.sum_sq_ranges / equations.sum_weights);
-  PoseStep scale = PoseStep::Ones();
-  scale.head<3>().setConstant(mean_range > 0.0 ? 1.0 / mean_range : 1.0);
-  const Eigen::Matrix<double, 6, 6> scaled =
+  using Step = decltype(equations.gradient);
+  using Matrix = Eigen::Matrix<typename Step::Scalar, 6, 6>;
+  Step scale = Step::Ones();
+  scale.template head<3>().setConstant(mean_range > 0.0 ? 1.0 / mean_range : 1.0);
+  const Matrix scaled =
       scale.asDiagonal() * equations.information * scale.asDiagonal() / equations.sum_weights;
   // Of a positive semidefinite matrix also the eigenvectors, at a sixth of what Eigen's eigenvalue
   // solver adds to the compile time of every file that includes this one.
-  const Eigen::JacobiSVD<Eigen::Matrix<double, 6, 6>> svd(scaled, Eigen::ComputeFullU);
-  const PoseStep target = -scale.cwiseProduct(equations.gradient) / equations.sum_weights;
+  const Eigen::JacobiSVD<Matrix> svd(scaled, Eigen::ComputeFullU);
+  const Step target = -scale.cwiseProduct(equations.gradient) / equations.sum_weights;
+  Step step = Step::Zero();
   for (int i = 0; i < 6; ++i) {
     const double observability = svd.singularValues()[i];
     solution.observability[static_cast<std::size_t>(5 - i)] = observability;
@@ -52,9 +56,9 @@ inline PoseSolution solve(const NormalEquations& equations, double min_observabi
       continue;
     }
     const auto direction = svd.matrixU().col(i);
-    solution.step += (direction.dot(target) / observability) * direction;
+    step += (direction.dot(target) / observability) * direction;
   }
-  solution.step = scale.cwiseProduct(solution.step).eval();
+  solution.step = scale.cwiseProduct(step);
   return solution;
 }
 

@@ -84,7 +84,7 @@ class ScanAligner {
       const Pose& T_map_scan,
       const Executor& executor = {}) {
     const std::size_t size = points.size();
-    const Eigen::Matrix3d R_map_scan = T_map_scan.linear();
+    const Eigen::Matrix3d R_map_scan = rotation_of(T_map_scan);
     const std::size_t blocks = (size + kBlock - 1) / kBlock;
     partial_sums_.assign(blocks, NormalEquations{});
     contexts_.resize(std::max(contexts_.size(), blocks));
@@ -121,9 +121,10 @@ class ScanAligner {
     }
   }
 
-  bool is_small(const PoseStep& step) const {
-    return step.head<3>().norm() <= options_.converged_rotation &&
-           step.tail<3>().norm() <= options_.converged_translation;
+  template <class Step>
+  bool is_small(const Step& step) const {
+    return step.template head<3>().norm() <= options_.converged_rotation &&
+           step.template tail<3>().norm() <= options_.converged_translation;
   }
 
   void describe(

@@ -8,6 +8,7 @@
 #include "nvm/core/finite.hpp"
 #include "nvm/core/require.hpp"
 #include "nvm/core/target.hpp"
+#include "nvm/geometry/coordinates.hpp"
 #include "nvm/registration/plane.hpp"
 
 namespace nvm {
@@ -27,7 +28,7 @@ struct SightingOptions {
   /// Whether `plane` is the surface of a point with this sighting (nvm/map/sighting.hpp), in the
   /// frame of the plane.
   NVM_SHARED bool accept(const Plane& plane, const Eigen::Vector3f& sighting) const {
-    const double sine = 2.0 * std::abs(plane.normal.dot(sighting.cast<double>()));
+    const double sine = 2.0 * std::abs(detail::dot(plane.normal, detail::cast<double>(sighting)));
     return plane.planarity >= min_planarity && plane.deviation[0] <= max_deviation &&
            sine >= min_incidence_sine;
   }

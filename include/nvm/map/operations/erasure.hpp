@@ -10,6 +10,7 @@
 
 #include "nvm/core/finite.hpp"
 #include "nvm/core/target.hpp"
+#include "nvm/geometry/coordinates.hpp"
 #include "nvm/map/map_options.hpp"
 #include "nvm/map/operations/traversal.hpp"
 #include "nvm/map/storage/lattice.hpp"
@@ -25,12 +26,15 @@ struct BoxRegion {
   Eigen::Vector3d max;
 
   bool contains(const Eigen::Vector3d& point) const {
-    return (point.array() >= min.array()).all() && (point.array() <= max.array()).all();
+    return on_all_axes(
+        [&](int axis) { return point[axis] >= min[axis] && point[axis] <= max[axis]; });
   }
   bool may_touch(const Lattice& lattice, const VoxelIndex& voxel) const {
     const double edge = lattice.meters_per_step() * kStepsPerVoxel;
-    const Eigen::Array3d low = voxel.cast<double>().array() * edge;
-    return (low + edge >= min.array()).all() && (low <= max.array()).all();
+    return on_all_axes([&](int axis) {
+      const double low = voxel[axis] * edge;
+      return low + edge >= min[axis] && low <= max[axis];
+    });
   }
   bool is_valid() const { return all_numbers(min) && all_numbers(max); }
   const Eigen::Vector3d& low() const { return min; }
@@ -42,13 +46,19 @@ struct BallRegion {
   Eigen::Vector3d center;
   double radius;
 
-  bool contains(const Eigen::Vector3d& point) const { return is_within(point - center, radius); }
+  bool contains(const Eigen::Vector3d& point) const {
+    return is_within(difference(point, center), radius);
+  }
   bool may_touch(const Lattice& lattice, const VoxelIndex& voxel) const {
     return sq_distance_to_voxels(lattice, center, voxel, voxel) <= radius * radius * (1.0 + 1e-9);
   }
   bool is_valid() const { return all_finite(center) && is_distance(radius); }
-  Eigen::Vector3d low() const { return center.array() - radius; }
-  Eigen::Vector3d high() const { return center.array() + radius; }
+  Eigen::Vector3d low() const {
+    return per_axis([&](int axis) { return center[axis] - radius; });
+  }
+  Eigen::Vector3d high() const {
+    return per_axis([&](int axis) { return center[axis] + radius; });
+  }
 };
 
 /// Keeps of the surface at `head` only the points outside `region`. Head of what is left, or kNone.
@@ -121,12 +131,14 @@ void erase_region(VoxelStorage& storage, const Lattice& lattice, const Region& r
     return;
   }
   // Rounding may put a point at the region's border into the brick beside it.
-  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(lattice.meters_per_step());
+  const double margin = lattice.meters_per_step();
+  const Eigen::Vector3d low = region.low();
+  const Eigen::Vector3d high = region.high();
   for_each_voxel_near(
       storage,
       lattice,
-      region.low() - margin,
-      region.high() + margin,
+      per_axis([&](int axis) { return low[axis] - margin; }),
+      per_axis([&](int axis) { return high[axis] + margin; }),
       [&](std::uint32_t front, const VoxelIndex& index) {
         if (region.may_touch(lattice, index)) {
           erase_from_voxel(storage, lattice, front, region);
@@ -139,10 +151,11 @@ inline void erase_voxels_beyond(
   if (!all_finite(center) || !is_distance(radius)) {
     return;
   }
-  const Eigen::Vector3i middle = Eigen::Vector3i::Constant(kStepsPerVoxel / 2);
+  constexpr int kMiddle = kStepsPerVoxel / 2;
+  const BallRegion near{center, radius};
   for (std::uint32_t brick = 0; brick < storage.brick_high_water(); ++brick) {
     storage.visit_brick(brick, [&](std::uint32_t front, const VoxelIndex& index) {
-      if (!is_within(lattice.position(index, middle) - center, radius)) {
+      if (!near.contains(lattice.position(index, {kMiddle, kMiddle, kMiddle}))) {
         storage.erase_voxel(storage.chunk(front).voxel);
       }
     });

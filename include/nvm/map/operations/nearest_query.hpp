@@ -90,7 +90,7 @@ class NearestQuery {
     if (center != kNone) {
       return bricks_[center].around[static_cast<std::size_t>(slot)];
     }
-    return storage_.find_brick(index_key(brick_index(voxel_) + around_offset(slot)));
+    return storage_.find_brick(index_key(index_around(brick_index(voxel_), slot)));
   }
 
   [[gnu::always_inline]] void collect_brick(

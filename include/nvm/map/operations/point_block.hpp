@@ -45,15 +45,14 @@ class PointBlock {
 
   /// Brings the positions to the map frame (Eq. 3) and to the lattice (Eq. 4).
   [[gnu::always_inline]] void locate(const Pose& T_map_scan, const Lattice& lattice) noexcept {
-    const Eigen::Matrix3d R = T_map_scan.linear() * lattice.voxels_per_meter();
-    const Eigen::Vector3d t = T_map_scan.translation() * lattice.voxels_per_meter();
+    const double scale = lattice.voxels_per_meter();
     Axes<double> scaled;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto row = static_cast<Eigen::Index>(axis);
-      const double x = R(row, 0);
-      const double y = R(row, 1);
-      const double z = R(row, 2);
-      const double offset = t[row];
+      const double x = T_map_scan(row, 0) * scale;
+      const double y = T_map_scan(row, 1) * scale;
+      const double z = T_map_scan(row, 2) * scale;
+      const double offset = T_map_scan(row, 3) * scale;
       for (std::size_t i = 0; i < kSize; ++i) {
         scaled[axis][i] = x * position_[0][i] + y * position_[1][i] + z * position_[2][i] + offset;
       }
@@ -67,13 +66,12 @@ class PointBlock {
 
   /// Brings the normals to the map frame and to their stored form; to be called after locate().
   [[gnu::always_inline]] void turn_normals(const Pose& T_map_scan) noexcept {
-    const Eigen::Matrix3f R = T_map_scan.linear().cast<float>();
     Axes<float> turned;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto row = static_cast<Eigen::Index>(axis);
-      const float x = R(row, 0);
-      const float y = R(row, 1);
-      const float z = R(row, 2);
+      const auto x = static_cast<float>(T_map_scan(row, 0));
+      const auto y = static_cast<float>(T_map_scan(row, 1));
+      const auto z = static_cast<float>(T_map_scan(row, 2));
       for (std::size_t i = 0; i < kSize; ++i) {
         turned[axis][i] = x * normal_[0][i] + y * normal_[1][i] + z * normal_[2][i];
       }

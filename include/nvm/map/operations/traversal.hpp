@@ -4,12 +4,14 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "nvm/core/finite.hpp"
 #include "nvm/core/target.hpp"
+#include "nvm/geometry/coordinates.hpp"
 #include "nvm/map/map_point.hpp"
 #include "nvm/map/neighbor.hpp"
 #include "nvm/map/point_values.hpp"
@@ -32,18 +34,22 @@ void for_each_voxel_near(
     Visitor&& visit) {
   constexpr double kEnd = kMaxVoxelIndex / kBrickEdge;  // of the bricks, in both directions
   const double bricks_per_meter = lattice.voxels_per_meter() / kBrickEdge;
-  const Eigen::Array3d low = (min.array() * bricks_per_meter).floor().max(-kEnd);
-  const Eigen::Array3d high = (max.array() * bricks_per_meter).floor().min(kEnd);
-  const Eigen::Array3d counts = (high - low + 1.0).max(0.0);  // none where the map cannot reach
-  if (counts.prod() >= static_cast<double>(storage.brick_count())) {  // cheaper to look at all
+  const Eigen::Vector3d low =
+      per_axis([&](int axis) { return std::max(std::floor(min[axis] * bricks_per_meter), -kEnd); });
+  const Eigen::Vector3d high =
+      per_axis([&](int axis) { return std::min(std::floor(max[axis] * bricks_per_meter), kEnd); });
+  const Eigen::Vector3d counts = per_axis(  // none where the map cannot reach
+      [&](int axis) { return std::max(high[axis] - low[axis] + 1.0, 0.0); });
+  const double bricks = counts.x() * counts.y() * counts.z();
+  if (bricks >= static_cast<double>(storage.brick_count())) {  // cheaper to look at all
     storage.for_each_voxel(visit);
     return;
   }
-  if (counts.minCoeff() < 1.0) {
+  if (bricks < 1.0) {
     return;
   }
-  const VoxelIndex first = low.cast<std::int32_t>();
-  const VoxelIndex last = high.cast<std::int32_t>();
+  const VoxelIndex first = per_axis([&](int axis) { return static_cast<std::int32_t>(low[axis]); });
+  const VoxelIndex last = per_axis([&](int axis) { return static_cast<std::int32_t>(high[axis]); });
   for (std::int32_t z = first.z(); z <= last.z(); ++z) {
     for (std::int32_t y = first.y(); y <= last.y(); ++y) {
       for (std::int32_t x = first.x(); x <= last.x(); ++x) {
@@ -143,17 +149,20 @@ inline double sq_distance_to_voxels(
     const VoxelIndex& low,
     const VoxelIndex& high) {
   const double edge = lattice.meters_per_step() * kStepsPerVoxel;
-  const Eigen::Array3d below = low.cast<double>().array() * edge - point.array();
-  const Eigen::Array3d above = point.array() - (high.cast<double>().array() + 1.0) * edge;
-  return below.max(above).max(0.0).square().sum();
+  return sq_norm(per_axis([&](int axis) {
+    const double below = low[axis] * edge - point[axis];
+    const double above = point[axis] - (high[axis] + 1.0) * edge;
+    return std::max(std::max(below, above), 0.0);
+  }));
 }
 
 /// Whether `offset` [m] is at most `radius` long, also where the squares of both are too large for
 /// a double.
 inline bool is_within(const Eigen::Vector3d& offset, double radius) {
   constexpr double kLargestSquared = 1e150;
-  return radius < kLargestSquared ? offset.squaredNorm() <= radius * radius
-                                  : offset.stableNorm() <= radius;
+  return radius < kLargestSquared
+             ? sq_norm(offset) <= radius * radius
+             : sq_norm(per_axis([&](int axis) { return offset[axis] / radius; })) <= 1.0;
 }
 
 template <class Visitor>
@@ -174,16 +183,20 @@ void for_each_within(
     for (std::uint32_t head = front; head != kNone; head = storage.chunk(head).next_surface) {
       for_each_id(storage, head, [&](PointId id) {
         const Eigen::Vector3d position = lattice.position(index, stored_step(storage, id));
-        const Eigen::Vector3d offset = position - center;
+        const Eigen::Vector3d offset = difference(position, center);
         if (is_within(offset, radius)) {
           storage.recency().use(storage.chunk(head).voxel);
-          visit(Neighbor{position, static_cast<float>(offset.squaredNorm()), id});
+          visit(Neighbor{position, static_cast<float>(sq_norm(offset)), id});
         }
       });
     }
   };
-  const Eigen::Vector3d reach = Eigen::Vector3d::Constant(radius);
-  for_each_voxel_near(storage, lattice, center - reach, center + reach, visit_voxel);
+  for_each_voxel_near(
+      storage,
+      lattice,
+      per_axis([&](int axis) { return center[axis] - radius; }),
+      per_axis([&](int axis) { return center[axis] + radius; }),
+      visit_voxel);
 }
 
 inline MapStats count_all(const VoxelStorage& storage) {

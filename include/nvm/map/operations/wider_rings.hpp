@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "nvm/core/target.hpp"
+#include "nvm/geometry/coordinates.hpp"
 #include "nvm/map/neighbor.hpp"
 #include "nvm/map/operations/nearest_request.hpp"
 #include "nvm/map/operations/normal_gate.hpp"
@@ -75,7 +76,7 @@ class WiderRings {
         edge_(lattice.meters_per_step() * kStepsPerVoxel) {
     located_ = wanted_ > 0 && is_distance(request.search.max_distance) &&
                lattice.locate(request.point, query_) == LatticeStatus::kInside;
-    point_ = located_ ? lattice.position(query_.voxel, query_.step) : Eigen::Vector3d::Zero();
+    point_ = located_ ? lattice.position(query_.voxel, query_.step) : zeros<Eigen::Vector3d>();
   }
 
   /// `count`: neighbours of the 27 voxels, which are in request.out.
@@ -93,32 +94,36 @@ class WiderRings {
  private:
   /// Whether nothing beyond `ring` could come before the `count` neighbours that were found.
   bool settles(int ring, std::size_t count) const noexcept {
-    const Eigen::Array3d inside = query_.step.cast<double>().array() / kStepsPerVoxel;
-    const double covered = edge_ * (ring + inside.min(1.0 - inside).minCoeff());
+    const Eigen::Vector3d to_side = per_axis([&](int axis) {
+      const double inside = static_cast<double>(query_.step[axis]) / kStepsPerVoxel;
+      return std::min(inside, 1.0 - inside);
+    });
+    const double covered =
+        edge_ * (ring + std::min(std::min(to_side.x(), to_side.y()), to_side.z()));
     return covered > request_.search.max_distance ||
            (count == wanted_ &&
             static_cast<double>(request_.out[count - 1].sq_distance) < covered * covered);
   }
 
   std::size_t collect(int ring) const noexcept {
-    const VoxelIndex low = query_.voxel.array() - ring;
-    const VoxelIndex high = query_.voxel.array() + ring;
+    const VoxelIndex low = per_axis([&](int axis) { return query_.voxel[axis] - ring; });
+    const VoxelIndex high = per_axis([&](int axis) { return query_.voxel[axis] + ring; });
     const double max_distance = request_.search.max_distance;
     const double sq_limit = max_distance * max_distance;
     NearestList nearest(request_.out, wanted_);
     const auto visit = [&](std::uint32_t front, const VoxelIndex& index) {
       const double sq_gap = sq_distance_to_voxels(lattice_, point_, index, index);
-      if ((index.array() >= low.array()).all() && (index.array() <= high.array()).all() &&
-          sq_gap <= sq_limit && !(nearest.is_full() && sq_gap > nearest.sq_worst())) {
+      const bool is_inside = on_all_axes(
+          [&](int axis) { return index[axis] >= low[axis] && index[axis] <= high[axis]; });
+      if (is_inside && sq_gap <= sq_limit && !(nearest.is_full() && sq_gap > nearest.sq_worst())) {
         show_voxel(front, index, sq_limit, nearest);
       }
     };
-    const Eigen::Vector3d middle = Eigen::Vector3d::Constant(0.5);  // away from rounding
     for_each_voxel_near(
         storage_,
         lattice_,
-        edge_ * (low.cast<double>() + middle),
-        edge_ * (high.cast<double>() + middle),
+        per_axis([&](int axis) { return edge_ * (low[axis] + 0.5); }),  // away from rounding
+        per_axis([&](int axis) { return edge_ * (high[axis] + 0.5); }),
         visit);
     for (std::size_t i = 0; i < nearest.count(); ++i) {
       storage_.recency().use(storage_.chunk(request_.out[i].id / kLanes).voxel);
@@ -139,7 +144,7 @@ class WiderRings {
       const bool tests_points = gate_.tests_points(surface);
       for_each_id(storage_, head, [&](PointId id) {
         const Eigen::Vector3d position = lattice_.position(index, stored_step(storage_, id));
-        const double sq_distance = (position - point_).squaredNorm();
+        const double sq_distance = sq_norm(difference(position, point_));
         if (sq_distance <= sq_limit &&
             (!tests_points || reads_point(gate_, stored_normal(storage_, id)))) {
           nearest.show({position, static_cast<float>(sq_distance), id});

@@ -60,8 +60,10 @@ inline VoxelIndex voxel_index(IndexKey brick_key, int cell) {
       brick.z() * kBrickEdge + (cell >> 2 * kBrickBits)};
 }
 
-/// Where the brick in a slot of Brick::around lies: -1, 0 or 1 per axis, x fastest.
-inline VoxelIndex around_offset(int slot) { return {slot % 3 - 1, slot / 3 % 3 - 1, slot / 9 - 1}; }
+/// The index of the brick in a slot of Brick::around, of which x runs fastest.
+inline VoxelIndex index_around(const VoxelIndex& brick, int slot) {
+  return {brick.x() + slot % 3 - 1, brick.y() + slot / 3 % 3 - 1, brick.z() + slot / 9 - 1};
+}
 
 struct alignas(64) Brick {
   std::uint64_t occupied;  // bit c: cell c holds a voxel

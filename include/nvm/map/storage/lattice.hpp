@@ -8,6 +8,7 @@
 
 #include "nvm/core/finite.hpp"
 #include "nvm/core/target.hpp"
+#include "nvm/geometry/coordinates.hpp"
 
 namespace nvm::detail {
 inline namespace NVM_TARGET {
@@ -71,7 +72,8 @@ class Lattice {
 
   /// The lattice point of `position` [m]; `out` is written only when the result is kInside.
   LatticeStatus locate(const Eigen::Vector3d& position, LatticePoint& out) const noexcept {
-    const LatticeStatus status = judge(position * voxels_per_meter_);
+    const LatticeStatus status =
+        judge(per_axis([&](int axis) { return position[axis] * voxels_per_meter_; }));
     if (status != LatticeStatus::kInside) {
       return status;
     }
@@ -85,11 +87,14 @@ class Lattice {
 
   /// The middle of a lattice cell, in steps from the origin.
   static Eigen::Vector3d steps(const LatticePoint& point) noexcept {
-    return (point.voxel.cast<double>() * kStepsPerVoxel + point.step.cast<double>()).array() + 0.5;
+    return per_axis([&](int axis) {
+      return static_cast<double>(point.voxel[axis]) * kStepsPerVoxel + point.step[axis] + 0.5;
+    });
   }
   /// The middle of a lattice cell [m].
   Eigen::Vector3d position(const VoxelIndex& voxel, const Eigen::Vector3i& step) const noexcept {
-    return steps({voxel, step}) * meters_per_step_;
+    const Eigen::Vector3d middle = steps({voxel, step});
+    return per_axis([&](int axis) { return middle[axis] * meters_per_step_; });
   }
 
   double meters_per_step() const noexcept { return meters_per_step_; }

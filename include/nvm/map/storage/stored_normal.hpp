@@ -9,7 +9,7 @@
 #include <cstring>
 
 #include "nvm/core/target.hpp"
-
+#include "nvm/geometry/coordinates.hpp"
 #include "nvm/map/sighting.hpp"
 
 namespace nvm::detail {
@@ -39,7 +39,7 @@ inline bool is_unit_length(float sq_length) {
   std::memcpy(&bits, &sq_length, sizeof(bits));
   return bits - kShortest <= kLongest - kShortest;
 }
-inline bool is_unit(const Eigen::Vector3f& normal) { return is_unit_length(normal.squaredNorm()); }
+inline bool is_unit(const Eigen::Vector3f& normal) { return is_unit_length(sq_norm(normal)); }
 
 /// Stored normals are shorter than this when squared if they are sightings: three quarters of
 /// kNormalScale, midway between the two lengths.
@@ -77,8 +77,9 @@ inline StoredNormal view_of(const StoredNormal& sighting) {
 /// Of the length that it stands for: 1, half, or 0.
 inline Eigen::Vector3f load_normal(const StoredNormal& normal) {
   const Eigen::Vector3f vector(normal.x, normal.y, normal.z);
-  const float length = is_sighting(normal) ? 2.0F * vector.norm() : vector.norm();
-  return length > 0.0F ? Eigen::Vector3f(vector / length) : Eigen::Vector3f::Zero();
+  const float norm = std::sqrt(sq_norm(vector));
+  const float length = is_sighting(normal) ? 2.0F * norm : norm;
+  return per_axis([&](int axis) { return length > 0.0F ? vector[axis] / length : 0.0F; });
 }
 
 /// Two stored normals are within `angle` [rad] when their dot exceeds this. Angles are compared by

@@ -267,7 +267,7 @@ class VoxelStorage : public SurfaceStorage {
   void link_neighbors(std::uint32_t id, const VoxelIndex& index) noexcept {
     constexpr std::size_t kMiddle = kBricksAround / 2;
     for (std::size_t slot = 0; slot < kBricksAround; ++slot) {
-      const VoxelIndex other = index + around_offset(static_cast<int>(slot));
+      const VoxelIndex other = index_around(index, static_cast<int>(slot));
       const std::uint32_t neighbor = slot == kMiddle ? id : table_.find(index_key(other));
       bricks_[id].around[slot] = neighbor;
       if (neighbor != kNone) {
