@@ -10,6 +10,7 @@ the spread are over the repetitions, in CPU time. Writes BUILD/report.md and BUI
 """
 import argparse
 import json
+import os
 import platform
 import re
 import shutil
@@ -74,6 +75,24 @@ def plain_flags_ratios(folder: Path, repetitions: int) -> dict:
             / statistics.median(run[key] for run in runs["plain"]) for key in runs["plain"][0]}
 
 
+def include_ratios(repetitions: int) -> dict:
+    """What the compiler takes for a file that only includes nvm / for one that only includes Eigen/Dense: least CPU time, and memory."""
+    runs = defaultdict(list)
+    for _ in range(repetitions):
+        for name, header in (("eigen", "Eigen/Dense"), ("nvm", "nvm/nvm.hpp"), ("map", "nvm/map/voxel_map.hpp")):
+            compiler = subprocess.Popen(["c++", "-std=c++17", "-O2", "-fsyntax-only", "-Iinclude", "-I/usr/include/eigen3", "-xc++", "-"],
+                                        stdin=subprocess.PIPE)
+            compiler.stdin.write(f"#include <{header}>\n".encode())
+            compiler.stdin.close()
+            _, compiler.returncode, usage = os.wait4(compiler.pid, 0)
+            runs[name].append((usage.ru_utime + usage.ru_stime, usage.ru_maxrss))
+    least = {name: [min(values) for values in zip(*pairs)] for name, pairs in runs.items()}
+    return {"include_ratio_eigen": least["nvm"][0] / least["eigen"][0],
+            "include_memory_ratio_eigen": least["nvm"][1] / least["eigen"][1],
+            "map_include_ratio_eigen": least["map"][0] / least["eigen"][0],
+            "map_include_memory_ratio_eigen": least["map"][1] / least["eigen"][1]}
+
+
 def figures(records: dict, instructions) -> dict:
     scan_order, per_point = "/0", "ns_per_point"
     return {
@@ -130,7 +149,8 @@ def main() -> int:
         else:
             print(f"run.py: {program} is not built: skipped", file=sys.stderr)
     instructions = count_instructions(options.build / "benchmarks" / "nvm_query_probe")
-    values = figures(records, instructions) | plain_flags_ratios(options.build / "benchmarks", options.repetitions)
+    values = (figures(records, instructions) | plain_flags_ratios(options.build / "benchmarks", options.repetitions)
+              | include_ratios(options.repetitions))
     (options.build / "figures.json").write_text(json.dumps(values, indent=2) + "\n")
     summary = "\n".join(f"| {key} | {'not measured' if value is None else f'{value:.4g}'} |" for key, value in values.items())
     report = f"{machine()}\n\n| figure | value |\n|---|---|\n{summary}\n\n{table(records)}\n"

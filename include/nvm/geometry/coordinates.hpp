@@ -10,7 +10,7 @@
 // Eigen's expressions are templates: one in a function that is no template itself is instantiated
 // by every file that includes it, whether it calls the function or not; in a template, one whose
 // types do not depend on it is so in part. Functions of include/nvm calculate with coordinates
-// instead, or are made of the types that they are given: three quarters of what nvm/nvm.hpp cost to
+// instead, or are made of the types that they are given: most of what nvm/nvm.hpp cost to
 // include (docs/performance.md).
 namespace nvm::detail {
 inline namespace NVM_TARGET {
