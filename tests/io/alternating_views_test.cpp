@@ -22,7 +22,7 @@ constexpr double kPi = 3.14159265358979323846;
 
 /// What a LiDAR sees of a room of 9 x 4 x 2.6 m: 2000 returns in random directions up to 45 degrees
 /// from level, `from` to `to` its own azimuth [rad].
-class Room {
+class OblongRoom {
  public:
   Scan scan(double time, double yaw, double x, double from = -kPi, double to = kPi) {
     std::uniform_real_distribution<double> azimuth(from, to), sine(-0.7, 0.7);
@@ -53,7 +53,7 @@ class Room {
 };
 
 /// Times of those that are kept.
-std::vector<double> kept(const std::vector<Scan>& scans, std::string* said = nullptr) {
+std::vector<double> kept_times(const std::vector<Scan>& scans, std::string* said = nullptr) {
   AlternatingViews views;
   const std::string note = views.learn({scans.begin(), scans.begin() + 20});
   if (said != nullptr) {
@@ -73,7 +73,7 @@ std::vector<double> kept(const std::vector<Scan>& scans, std::string* said = nul
 
 TEST(AlternatingViews, KeepsToOneOfTwoLidars) {
   for (const double second : {0.5 * kPi, kPi, 2.0}) {  // how it is turned against the first
-    Room room;
+    OblongRoom room;
     std::vector<Scan> both;
     std::vector<double> first;
     for (int i = 0; i < 60; ++i) {
@@ -85,36 +85,36 @@ TEST(AlternatingViews, KeepsToOneOfTwoLidars) {
       first.push_back(time);
     }
     std::string said;
-    EXPECT_EQ(kept(both, &said), first) << second;
+    EXPECT_EQ(kept_times(both, &said), first) << second;
     EXPECT_THAT(said, HasSubstr("two LiDARs")) << second;
   }
 }
 
 TEST(AlternatingViews, KeepsAllOfOneLidarHoweverItMoves) {
   for (const double turn : {0.0, 0.05, 0.3, 0.5 * kPi}) {  // from cloud to cloud [rad]
-    Room room;
+    OblongRoom room;
     std::vector<Scan> scans;
     for (int i = 0; i < 60; ++i) {
       scans.push_back(room.scan(kPeriod * i, turn * i, -3.0 + 0.1 * i));
     }
     std::string said;
-    EXPECT_EQ(kept(scans, &said).size(), scans.size()) << turn;
+    EXPECT_EQ(kept_times(scans, &said).size(), scans.size()) << turn;
     EXPECT_THAT(said, IsEmpty()) << turn;
   }
 }
 
 TEST(AlternatingViews, KeepsBothHalvesOfSweeps) {
-  Room room;
+  OblongRoom room;
   std::vector<Scan> halves;
   for (int i = 0; i < 60; ++i) {
     const double from = i % 2 == 0 ? -kPi : 0.0;
     halves.push_back(room.scan(kPeriod * i, 0.02 * i, -3.0 + 0.1 * i, from, from + kPi));
   }
-  EXPECT_EQ(kept(halves).size(), halves.size());
+  EXPECT_EQ(kept_times(halves).size(), halves.size());
 }
 
 TEST(AlternatingViews, GoesOnWithTheOtherWhereOneFallsSilent) {
-  Room room;
+  OblongRoom room;
   std::vector<Scan> scans;
   for (int i = 0; i < 60; ++i) {
     if (i < 20) {
@@ -122,7 +122,7 @@ TEST(AlternatingViews, GoesOnWithTheOtherWhereOneFallsSilent) {
     }
     scans.push_back(room.scan(kPeriod * i + 0.05, 0.5 * kPi, -1.0));
   }
-  const std::vector<double> times = kept(scans);
+  const std::vector<double> times = kept_times(scans);
   EXPECT_THAT(times, ::testing::SizeIs(::testing::AllOf(::testing::Ge(48U), ::testing::Le(52U))));
   EXPECT_GT(times.back(), 5.9);
 }
@@ -130,7 +130,7 @@ TEST(AlternatingViews, GoesOnWithTheOtherWhereOneFallsSilent) {
 TEST(AlternatingViews, OfEmptyCloudsAreNone) {
   std::vector<Scan> scans(30, Scan{0.0, 0.0, {}});
   scans[3].points.resize(7);
-  EXPECT_EQ(kept(scans).size(), scans.size());
+  EXPECT_EQ(kept_times(scans).size(), scans.size());
 }
 
 }  // namespace

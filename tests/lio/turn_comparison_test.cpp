@@ -10,7 +10,7 @@
 namespace nvm::lio {
 namespace {
 
-constexpr double kSweep = 0.1;  // [s]
+constexpr double kSweepTime = 0.1;  // [s]
 
 /// A walk's swing and a slow turn about z [rad].
 double angle(double t) { return 0.05 * std::sin(6.0 * t) + 0.6 * std::sin(0.5 * t); }
@@ -19,7 +19,7 @@ double rate(double t) { return 0.3 * std::cos(6.0 * t) + 0.3 * std::cos(0.5 * t)
 
 // Scans alone tell the middle of a sweep, and take it to turn as from the middle before.
 double angle_by_scans(double t) {
-  return 1.5 * angle(t - 0.5 * kSweep) - 0.5 * angle(t - 1.5 * kSweep);
+  return 1.5 * angle(t - 0.5 * kSweepTime) - 0.5 * angle(t - 1.5 * kSweepTime);
 }
 
 /// 12 s at 200 Hz, of a gyroscope that turns by `scale` of the truth.

@@ -15,7 +15,7 @@ namespace nvm::io {
 
 namespace {
 
-constexpr char kMagic[8] = {'N', 'V', 'M', 'S', 'E', 'S', 'S', '\n'};
+constexpr char kSessionMagic[8] = {'N', 'V', 'M', 'S', 'E', 'S', 'S', '\n'};
 constexpr std::uint32_t kVersion = 1;
 constexpr float kNormalScale = 32767.0F;
 constexpr std::uint32_t kMostBytes = 1U << 28;  // of a keyframe
@@ -115,7 +115,7 @@ MapStamp stamp_of(const std::string& map) {
 
 SessionWriter::SessionWriter(const std::string& path)
     : path_(path), stream_(path, std::ios::binary) {
-  std::string head(kMagic, sizeof kMagic);
+  std::string head(kSessionMagic, sizeof kSessionMagic);
   append(head, kVersion);
   put(head);
 }
@@ -144,11 +144,11 @@ void SessionWriter::put(const std::string& bytes) {
 }
 
 SessionReader::SessionReader(const std::string& path) : path_(path), stream_(open_to_read(path)) {
-  char magic[sizeof kMagic] = {};
+  char magic[sizeof kSessionMagic] = {};
   std::uint32_t version = 0;
   stream_.read(magic, sizeof magic);
   stream_.read(reinterpret_cast<char*>(&version), sizeof version);
-  if (!stream_ || std::memcmp(magic, kMagic, sizeof magic) != 0) {
+  if (!stream_ || std::memcmp(magic, kSessionMagic, sizeof magic) != 0) {
     fail(path_, "is not a session of nvm run");
   }
   if (version != kVersion) {
