@@ -61,6 +61,7 @@ class RunLog:
         self._stream = stream
         self._positions = []
         self._drawn = 0  # of them
+        self._time = -float("inf")  # of the last [s]
         self._map_points = 0  # of the map drawn
         self._status = None
 
@@ -71,6 +72,9 @@ class RunLog:
         """T_map_body at `seconds`."""
         rr = self._rr
         self.at(seconds)
+        if seconds < self._time:  # the run has begun again
+            self._positions, self._drawn = [], 0
+        self._time = seconds
         self._positions.append(position)
         turn = rr.Quaternion(xyzw=quaternion)
         self._stream.log("world/body", rr.Transform3D(translation=position, quaternion=turn))

@@ -169,6 +169,25 @@ def test_what_a_scan_does_not_tell_is_drawn_and_cleared(tmp_path):
     assert isinstance(logged["world/body/unobserved_rotations"], rr.Clear)
 
 
+def test_a_run_that_begins_again_is_drawn_anew():
+    pytest.importorskip("rerun")
+    from nvm.viewer import RunLog
+
+    logged = {}
+
+    class Stream:
+        def set_time(self, *_, **__):
+            pass
+
+        def log(self, entity, what, static=False):
+            logged[entity] = what
+
+    log = RunLog(Stream())
+    for time in (1.0, 2.0, 3.0, 1.0):
+        log.pose(time, (time, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
+    assert logged["world/path"].strips.as_arrow_array().to_pylist() == [[[1.0, 0.0, 0.0]]]
+
+
 def test_a_viewer_that_fails_does_not_end_the_run(tmp_path, rng, monkeypatch, capsys):
     pytest.importorskip("rerun")
     from sequences import write_sequence
