@@ -31,8 +31,8 @@ def info(arguments) -> None:
     if os.path.isdir(arguments.path):
         if not os.path.exists(os.path.join(arguments.path, "index.json")):
             raise RuntimeError(
-                f"{arguments.path}: is neither a bag nor a store of tiles; what scans or an nvm sequence hold, "
-                "nvm run says, and of its results nvm info takes the map.nvm"
+                f"{arguments.path}: is neither a bag nor a store of tiles; of a folder of results name its map.nvm; "
+                "folders of scans and nvm sequences go to nvm run"
             )
         describe_store(open_store(arguments.path), arguments.check)
         return
@@ -190,7 +190,7 @@ def parser() -> argparse.ArgumentParser:
     command = commands.add_parser("plot", help="draw the results of a run, or the report of an evaluation")
     command.add_argument("path", help="as for view")
     command.add_argument("--out", metavar="FOLDER", help="of the pictures; default: plots beside them")
-    command.add_argument("--truth", metavar="FILE", help="TUM file, for the errors")
+    command.add_argument("--truth", metavar="FILE", help="TUM file or nvm sequence, for the errors")
     command.set_defaults(run=plot)
     command = commands.add_parser("ifc", help="write the walls that nvm walls has found as IFC")
     command.add_argument("walls", help="a walls.json")

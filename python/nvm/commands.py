@@ -12,15 +12,20 @@ import subprocess
 import tempfile
 
 from ._nvm import VoxelMap
-from .program import find_program
+from .program import find_program, started
+
+INTERRUPTED = 130  # the program's exit code then
 
 
 def call(*arguments) -> None:
     """Runs the program; what it says when it fails becomes a RuntimeError."""
     command = [find_program(), *map(os.fspath, map(str_or_path, arguments))]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        raise RuntimeError(done.stderr.strip() or f"nvm {arguments[0]} ended with {done.returncode}")
+    with started(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as process:
+        errors = process.communicate()[1].strip()
+    if process.returncode == INTERRUPTED:
+        raise KeyboardInterrupt(errors)
+    if process.returncode != 0:
+        raise RuntimeError(errors or f"nvm {arguments[0]} ended with {process.returncode}")
 
 
 def str_or_path(argument):

@@ -79,11 +79,11 @@ def run_alone(command: list[str], keeps: tuple[int, ...]) -> int:
 
 
 @contextlib.contextmanager
-def started(command: list[str], keeps: tuple[int, ...]):
-    """A program that ends a run well when it is interrupted, and is waited for. It is in a session of its
+def started(command: list[str], keeps: tuple[int, ...] = (), **streams):
+    """A program that ends a run well when it is interrupted, and is waited for, with `streams` as of Popen. It is in a session of its
     own, so that a signal reaches it once, whether it came to this process or to all of a terminal."""
     signals = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-    with subprocess.Popen(command, pass_fds=keeps, start_new_session=True) as process:
+    with subprocess.Popen(command, pass_fds=keeps, start_new_session=True, **streams) as process:
         is_main = threading.current_thread() is threading.main_thread()
         forward = lambda number, _: process.send_signal(number)
         handlers = {number: signal.signal(number, forward) for number in signals} if is_main else {}

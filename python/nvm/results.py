@@ -52,7 +52,9 @@ class Results:
 
 
 def read_trajectory(path) -> Trajectory:
-    """Reads a TUM file: t x y z qx qy qz qw."""
+    """Reads a TUM file: t x y z qx qy qz qw; of a sequence that of its truth."""
+    path = pathlib.Path(path)
+    path = path / "groundtruth.tum" if path.is_dir() else path
     try:
         rows = np.loadtxt(path, ndmin=2)
     except ValueError as error:

@@ -59,7 +59,8 @@ lio::PipelineOptions options_from(const nb::object& config) {
 /// A pipeline that learns whether there is an IMU before its first scan.
 class Odometry {
  public:
-  Odometry(const nb::object& config, nb::handle T_imu_lidar) : options_(options_from(config)) {
+  Odometry(const nb::object& config, nb::handle T_imu_lidar)
+      : options_(options_from(config)), has_extrinsic_(!T_imu_lidar.is_none()) {
     options_.inertial.T_imu_lidar = pose_from(T_imu_lidar, "T_imu_lidar");
     make(true);  // so that bad options are told here
   }
@@ -109,7 +110,17 @@ class Odometry {
   std::vector<std::string> findings() const {
     const nb::gil_scoped_release no_gil;
     const std::lock_guard lock(mutex_);
-    return pipeline_->findings();
+    std::vector<std::string> findings = pipeline_->findings();
+    const bool uses_imu =
+        has_imu_ && lio::resolve(options_.type, true) != lio::PipelineType::kLidarOnly;
+    if (uses_imu && !has_extrinsic_) {
+      findings.insert(
+          findings.begin(),
+          "T_imu_lidar was not given: the LiDAR is taken to sit in the IMU, which costs "
+          "centimetres "
+          "where it does not; give Odometry the pose that maps LiDAR to IMU coordinates");
+    }
+    return findings;
   }
 
   nb::tuple scan() const {
@@ -145,6 +156,7 @@ class Odometry {
   }
 
   lio::PipelineOptions options_;
+  bool has_extrinsic_;
   std::unique_ptr<lio::Pipeline> pipeline_;
   mutable std::mutex mutex_;
   bool has_imu_ = false;

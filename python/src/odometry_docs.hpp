@@ -14,7 +14,7 @@ config : dict or path, optional
     its ``--set``, ``{"map.voxel_size": 0.2}``. Without ``pipeline`` it is 'fast_lio' when an IMU
     reading comes before the first scan, else 'lidar_only'.
 T_imu_lidar : (4, 4) float, optional
-    Maps LiDAR to IMU coordinates; the identity without it.
+    Maps LiDAR to IMU coordinates; the identity without it, which `findings` says.
 
 Raises
 ------

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <set>
 #include <sstream>
 #include <string>
 #include <type_traits>
@@ -114,6 +115,23 @@ nb::object to_python(const Enum& value, const Choices& choices) {
 
 }  // namespace detail
 
+/// What to say when not all of `keywords` are options.
+template <class Options>
+std::string unknown_option(const nb::kwargs& keywords, Options& options) {
+  std::set<std::string> names;
+  std::string list;
+  visit_options(options, [&](const OptionInfo& text, auto&, const auto&...) {
+    names.insert(text.name);
+    list += std::string(" ") + text.name;
+  });
+  std::string unknown;
+  for (const auto& [key, value] : keywords) {
+    const std::string name = nb::str(key).c_str();
+    unknown = names.count(name) == 0 ? name : unknown;
+  }
+  return "nvm: unknown option '" + unknown + "'; there are:" + list;
+}
+
 /// The options that `keywords` set, the others as the C++ defaults have them. Throws TypeError for
 /// an unknown name, ValueError for a value of the wrong type. Ranges are checked by who takes them.
 template <class Options>
@@ -134,11 +152,7 @@ Options options_from(const nb::kwargs& keywords) {
     }
   });
   if (known != keywords.size()) {
-    std::string message = "nvm: unknown option; there are:";
-    visit_options(options, [&](const OptionInfo& text, auto&, const auto&...) {
-      message += std::string(" ") + text.name;
-    });
-    throw nb::type_error(message.c_str());
+    throw nb::type_error(unknown_option(keywords, options).c_str());
   }
   return options;
 }

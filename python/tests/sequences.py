@@ -82,10 +82,11 @@ def write_truth(path, times):
 
 
 def write_walk(path):
-    """The walk as a ROS 2 bag in the folder `path`; returns it."""
+    """The walk as a ROS 2 bag in the folder `path`, where it may be from a notebook before; returns it."""
     from recordings import write
 
-    return write(pathlib.Path(path), "mcap", walk(np.random.default_rng(5)))
+    path = pathlib.Path(path)
+    return path if path.exists() else write(path, "mcap", walk(np.random.default_rng(5)))
 
 
 def walk(rng):

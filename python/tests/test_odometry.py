@@ -53,6 +53,17 @@ def test_what_a_floor_alone_does_not_tell_is_said(rng):
     np.testing.assert_allclose(np.abs(frame.unobserved_rotations[0]), [0, 0, 1], atol=0.05)
 
 
+def test_an_extrinsic_that_was_not_given_is_said():
+    for odometry, expected in (
+        (nvm.Odometry(), True),
+        (nvm.Odometry(None, np.eye(4)), False),
+        (nvm.Odometry({"pipeline": "lidar_only"}), False),
+    ):
+        assert odometry.findings() == []
+        odometry.add_imu(*still_imu(0.0, 0.1))
+        assert any("T_imu_lidar" in finding for finding in odometry.findings()) == expected
+
+
 def test_accelerations_in_g_are_a_finding(rng):
     odometry = nvm.Odometry()
     assert odometry.findings() == []

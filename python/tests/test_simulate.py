@@ -5,6 +5,10 @@
 import json
 import os
 import pathlib
+import signal
+import subprocess
+import sys
+import time
 
 import numpy as np
 import pytest
@@ -48,6 +52,21 @@ def test_seeds_and_settings_decide_what_comes(tmp_path):
     assert len(scans(slow)) == 5
     with pytest.raises(RuntimeError, match="no_such_scene"):
         nvm.simulate("no_such_scene", tmp_path / "none")
+
+
+def test_an_interrupted_simulation_leaves_nothing(tmp_path):
+    process = subprocess.Popen(
+        [sys.executable, "-c", "import nvm; nvm.simulate('rooms', 'out')"],
+        cwd=tmp_path,
+        stderr=subprocess.PIPE,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
+    )
+    while not any(tmp_path.iterdir()):
+        time.sleep(0.05)
+    time.sleep(1.0)
+    process.send_signal(signal.SIGINT)
+    assert b"KeyboardInterrupt" in process.communicate(timeout=60)[1]
+    assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.skipif(not TOOLS, reason="needs $NVM_TOOLS")

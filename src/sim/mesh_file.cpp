@@ -8,6 +8,9 @@
 #include <assimp/Importer.hpp>
 #include <stdexcept>
 
+#include "io/file/file.hpp"
+#include "sim/ply_check.hpp"
+
 namespace nvm::sim {
 namespace {
 
@@ -16,6 +19,9 @@ void append(const aiMesh& part, double scale, const Pose& T_world_mesh, Mesh& me
   for (unsigned i = 0; i < part.mNumVertices; ++i) {
     const aiVector3D& v = part.mVertices[i];
     mesh.vertices.push_back(T_world_mesh * (scale * Eigen::Vector3d(v.x, v.y, v.z)));
+    if (!mesh.vertices.back().allFinite()) {
+      throw std::runtime_error(mesh.file + ": has a vertex that is not finite");
+    }
   }
   for (unsigned i = 0; i < part.mNumFaces; ++i) {
     const aiFace& face = part.mFaces[i];
@@ -29,6 +35,9 @@ void append(const aiMesh& part, double scale, const Pose& T_world_mesh, Mesh& me
 }  // namespace
 
 Mesh read_mesh(const std::string& path, double scale, const Pose& T_world_mesh) {
+  if (io::extension_of(path) == ".ply") {
+    check_ply(path);
+  }
   Assimp::Importer importer;
   const aiScene* file = importer.ReadFile(
       path,

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The nvm authors
 #include "sim/scene_file.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <random>
@@ -195,6 +195,34 @@ TEST_F(SceneFolder, ReadsMeshes) {
   }
   EXPECT_TRUE(bounds.min().isApprox(Eigen::Vector3d(1.0, 0.0, 5.0)));
   EXPECT_TRUE(bounds.max().isApprox(Eigen::Vector3d(3.0, 2.0, 5.0)));
+}
+
+TEST_F(SceneFolder, RefusesMeshesThatAreDamaged) {
+  const std::string head =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+      "0 0 0\n1 0 0\n0 1 0\n";
+  const std::string binary =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 1\nproperty list uchar short vertex_indices\nend_header\n" +
+      std::string(36, '\0') + "\3";
+  const std::string corners = std::string("\0\0\1\0", 4);
+  const auto error_of = [&](const std::string& name, const std::string& content) {
+    write(name, content);
+    const std::string file =
+        write("my.yaml", "meshes: [{name: m, file: " + name + ", at: [0, 0]}]\n");
+    return test::runtime_error_of([&] { load_scene(file); });
+  };
+  using ::testing::HasSubstr;
+  for (const char* face : {"3 0 1 -1\n", "3 0 1 3\n", "3 0 1 1000000000\n"}) {
+    EXPECT_THAT(error_of("face.ply", head + face), HasSubstr("none of its 3 vertices")) << face;
+  }
+  EXPECT_THAT(error_of("cut.ply", head + "3 0 1\n"), HasSubstr("is cut off"));
+  EXPECT_THAT(error_of("cut.ply", head.substr(0, 90)), HasSubstr("header is cut off"));
+  EXPECT_THAT(error_of("cut.ply", binary + corners + "\2"), HasSubstr("is cut off"));
+  EXPECT_THAT(error_of("far.ply", binary + corners + std::string("\3\0", 2)), HasSubstr("none of"));
+  EXPECT_THAT(error_of("below.ply", binary + corners + "\xff\xff"), HasSubstr("none of its 3"));
+  EXPECT_THAT(error_of("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), HasSubstr("nan.obj"));
 }
 
 TEST_F(SceneFolder, NamesAMeshThatCannotBeRead) {
