@@ -118,7 +118,7 @@ def test_merge_and_info(walks, tmp_path):
     done("merge", walks / "run_0", walks / "run_1", "--out", tmp_path / "all.nvm")
     assert "VoxelMap" in done("info", tmp_path / "all.nvm")
     for folder in ("walk_0", "run_0"):
-        assert "nvm run says" in nvm("info", walks / folder).stderr
+        assert "go to nvm run" in nvm("info", walks / folder).stderr
 
 
 def test_map_from_poses_and_export(tmp_path, rng):
