@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -37,8 +38,9 @@ std::vector<Setting> changed_settings(
 
 }  // namespace
 
-SecondStart::SecondStart(const std::string& input, std::string file)
-    : file_(std::move(file)), is_pipe_(std::filesystem::is_fifo(input)) {
+SecondStart::SecondStart(const std::string& input, std::string file) : file_(std::move(file)) {
+  std::error_code ignored;  // who opens the input says what is wrong with it
+  is_pipe_ = std::filesystem::is_fifo(input, ignored);
   is_begun_ = is_pipe_ && file_.empty();
 }
 

@@ -29,10 +29,10 @@ class SecondStart {
  private:
   std::string file_;
   bool is_begun_ = false;
-  std::optional<double> first_,
-      begin_;  ///< of all frames, and of those that `better_` holds for [s]
+  std::optional<double> first_;  ///< time of the first frame [s]
+  std::optional<double> begin_;  ///< since when there is a `better_` [s]
   lio::ImuInputOptions better_;
-  bool is_pipe_;
+  bool is_pipe_ = false;
 };
 
 }  // namespace nvm::app
