@@ -87,13 +87,18 @@ def simulate(scene, out, *, sensor="mid360", seed=1, duration=0.0, settings=None
 
     Raises
     ------
+    ValueError
+        For settings that are no dict.
     RuntimeError
         With what the program says.
     """
+    if not isinstance(settings or {}, dict):
+        raise ValueError(f"settings must be a dict of keys and values, not {settings!r}")
     words = ["--sensor", sensor, "--seed", seed, "--duration", duration]
     for key, value in (settings or {}).items():
         words += ["--set", f"{key}={json.dumps(value, default=float)}"]
-    call("simulate", scene, "--out", out, *words)
+    name = os.fspath(scene)
+    call("simulate", f"./{name}" if name.startswith("-") else name, "--out", out, *words)  # else an option
     return pathlib.Path(out)
 
 

@@ -4,6 +4,7 @@
 #include <nanobind/stl/string.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -232,6 +233,9 @@ void bind_files(nb::class_<SharedMap>& map, nb::module_& module) {
       [](nb::handle path) {
         const std::string name = path_from(path);
         const nb::gil_scoped_release no_gil;
+        if (std::filesystem::is_directory(name)) {
+          throw std::runtime_error("nvm: " + name + ": is a folder; name the map.nvm in it");
+        }
         return new SharedMap(load_map(name));  // Python owns it
       },
       "path"_a,

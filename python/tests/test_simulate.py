@@ -50,8 +50,13 @@ def test_seeds_and_settings_decide_what_comes(tmp_path):
     assert (first / "imu.csv").read_bytes() != (other / "imu.csv").read_bytes()
     slow = nvm.simulate("wall5", tmp_path / "slow", duration=1.0, settings={"lidar.scan_rate": 5})
     assert len(scans(slow)) == 5
-    with pytest.raises(RuntimeError, match="no_such_scene"):
-        nvm.simulate("no_such_scene", tmp_path / "none")
+    for scene in ("no_such_scene", "--list-scenes"):
+        with pytest.raises(RuntimeError, match=scene):
+            nvm.simulate(scene, tmp_path / "none")
+    with pytest.raises(RuntimeError, match="--seed"):
+        nvm.simulate("wall5", tmp_path / "none", seed=-1)
+    with pytest.raises(ValueError, match="dict"):
+        nvm.simulate("wall5", tmp_path / "none", settings=[1])
 
 
 def test_an_interrupted_simulation_leaves_nothing(tmp_path):

@@ -172,6 +172,8 @@ def test_a_bad_file_is_named(tmp_path):
         nvm.load(tmp_path / "broken.nvm")
     with pytest.raises(RuntimeError, match="missing.nvm"):
         nvm.load(tmp_path / "missing.nvm")
+    with pytest.raises(RuntimeError, match="is a folder"):
+        nvm.load(tmp_path)
     with pytest.raises(RuntimeError, match="cannot be written"):
         nvm.VoxelMap().save(tmp_path / "no" / "folder.nvm")
     with pytest.raises(ValueError, match="the state of a map is not an nvm map"):

@@ -100,6 +100,9 @@ void add_simulate_command(CLI::App& app) {
   command->add_option("--sensor", arguments->sensor, "LiDAR, see --list-sensors")
       ->capture_default_str();
   command->add_option("--seed", arguments->seed, "Of all noise and of the walk's details")
+      ->check([](const std::string& seed) {
+        return std::string(seed.rfind('-', 0) == 0 ? "must not be below zero" : "");
+      })
       ->capture_default_str();
   command->add_option("--duration", arguments->duration, "[s]; 0: to the end of the route")
       ->check(CLI::Range(0.0, 1e6))
