@@ -67,6 +67,7 @@ TEST(ClockWatch, FindsMillisecondsBetweenTheClocks) {
     for (const double hidden : {0.0, 0.4}) {
       const ClockWatch mended = watch({late, late, -3.0, true, hidden});
       EXPECT_NEAR(mended.mended(), late, 0.0015) << hidden;
+      EXPECT_TRUE(mended.was_late_at_first()) << late << ", " << hidden;
       EXPECT_NEAR(named_offset(mended.finding()), -late, 0.0015) << mended.finding();
     }
   }
@@ -76,6 +77,7 @@ TEST(ClockWatch, SaysAndMendsNothingOfClocksThatAgreeNorWithoutTurns) {
   for (const Clock& clock : {Clock{}, Clock{2e-4, 2e-4}, Clock{0.05, 0.05, 100.0}}) {
     EXPECT_EQ(watch(clock).finding(), "");
     EXPECT_EQ(watch(clock).mended(), 0.0);
+    EXPECT_FALSE(watch(clock).was_late_at_first());
   }
 }
 
@@ -84,6 +86,7 @@ TEST(ClockWatch, NamesAndFollowsADrift) {
     const ClockWatch clocks = watch({0.0, 0.03, -3.0, true, hidden});
     EXPECT_THAT(clocks.finding(), ::testing::HasSubstr("clock drifts"));
     EXPECT_NEAR(clocks.mended(), 0.03, 0.004);
+    EXPECT_FALSE(clocks.was_late_at_first()) << hidden;
   }
 }
 

@@ -103,6 +103,7 @@ bool ClockWatch::look(const MotionHistory& history, double begin) {
 }
 
 void ClockWatch::note(double time, double offset, double variance) {
+  earliest_ = earliest_.value_or(offset);
   first_ = w_ > 0.0 ? first_ : time;
   const double t = time - first_;
   const double weight = 1.0 / variance;
@@ -138,8 +139,14 @@ std::optional<double> ClockWatch::offset() const {
 
 void ClockWatch::mend(double offset) {
   mended_ += offset;
+  earliest_ = earliest_.value_or(mended_);
   left_ -= offset;
   variance_ += hidden_variance(offset);
+}
+
+bool ClockWatch::was_late_at_first() const {
+  constexpr double kShown = 0.15;  // at least: poses that lean on the IMU hide up to four fifths
+  return earliest_ && *earliest_ * mended_ > kShown * mended_ * mended_;
 }
 
 std::string ClockWatch::finding() const {

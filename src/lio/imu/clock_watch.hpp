@@ -25,6 +25,9 @@ class ClockWatch {
   void mend(double offset);
   /// The sum of all that was mended [s].
   double mended() const { return mended_; }
+  /// Whether what was mended showed from the beginning, as far as poses did not hide it: a clock
+  /// that drifts or leaps was right at first.
+  bool was_late_at_first() const;
 
   /// One line; empty while the clocks agree or nothing has turned enough to tell.
   std::string finding() const;
@@ -37,10 +40,11 @@ class ClockWatch {
   void note(double time, double offset, double variance);
   Line fit() const;
 
-  double left_ = 0.0;              ///< [s]
-  double variance_ = 0.05 * 0.05;  ///< of left_ [s^2]
-  double time_ = 0.0;              ///< of the last look [s]
-  double mended_ = 0.0;            ///< [s]
+  double left_ = 0.0;               ///< [s]
+  double variance_ = 0.05 * 0.05;   ///< of left_ [s^2]
+  double time_ = 0.0;               ///< of the last look [s]
+  double mended_ = 0.0;             ///< [s]
+  std::optional<double> earliest_;  ///< offset by the first stretch, or mended before any [s]
   // Sums over the stretches, each with the weight that it is sure: of 1, time, offset, ...
   double first_ = 0.0;  ///< time of the first [s]
   double w_ = 0.0, wt_ = 0.0, wo_ = 0.0, wtt_ = 0.0, wto_ = 0.0;

@@ -135,14 +135,15 @@ std::vector<std::string> ImuJudge::summary() const {
 
 std::optional<ImuInputOptions> ImuJudge::better_input() const {
   constexpr double kSmallOffset = 0.005;  // that costs next to nothing until it is mended [s]
-  const bool was_elsewhen = std::abs(clocks_.mended()) > kSmallOffset;
+  const bool was_elsewhen =
+      std::abs(clocks_.mended()) > kSmallOffset && clocks_.was_late_at_first();
   if (!has_mended_gyro_ && !has_mended_accel_ && !was_elsewhen) {
     return std::nullopt;
   }
   ImuInputOptions better = options_;
   better.gyro_scale = has_mended_gyro_ ? gyro_scale_ : options_.gyro_scale;
   better.accel_scale = has_mended_accel_ ? accel_scale_ : options_.accel_scale;
-  better.time_offset -= clocks_.mended();
+  better.time_offset -= was_elsewhen ? clocks_.mended() : 0.0;
   return better;
 }
 
