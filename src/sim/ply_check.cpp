@@ -4,54 +4,32 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
-#include <string_view>
+#include <utility>
 #include <vector>
 
+#include "io/cloud/ply.hpp"
 #include "io/file/file.hpp"
 
 namespace nvm::sim {
 
 namespace {
 
-enum class Number { kSigned, kUnsigned, kReal };
-
-struct NumberType {
-  std::string_view name, sized_name;
-  Number number;
-  std::size_t size;  ///< [bytes]
-};
-
-constexpr std::array<NumberType, 8> kNumberTypes{{
-    {"char", "int8", Number::kSigned, 1},
-    {"uchar", "uint8", Number::kUnsigned, 1},
-    {"short", "int16", Number::kSigned, 2},
-    {"ushort", "uint16", Number::kUnsigned, 2},
-    {"int", "int32", Number::kSigned, 4},
-    {"uint", "uint32", Number::kUnsigned, 4},
-    {"float", "float32", Number::kReal, 4},
-    {"double", "float64", Number::kReal, 8},
-}};
-
-const NumberType& type_named(const std::string& name) {
-  const auto* type =
-      std::find_if(kNumberTypes.begin(), kNumberTypes.end(), [&](const NumberType& known) {
-        return name == known.name || name == known.sized_name;
-      });
-  if (type == kNumberTypes.end()) {
+io::ScalarType type_named(const std::string& name) {
+  const auto type = io::ply_type(name);
+  if (!type) {
     throw std::runtime_error("property type '" + name + "' is not known");
   }
   return *type;
 }
 
 struct PlyProperty {
-  std::optional<NumberType> count;  ///< of a list
-  NumberType value;
+  std::optional<io::ScalarType> count;  ///< of a list
+  io::ScalarType value;
   bool is_corners;
 };
 
@@ -69,28 +47,25 @@ class PlyBody {
         is_ascii_(encoding == "ascii"),
         is_big_endian_(encoding == "binary_big_endian") {}
 
-  double next(const NumberType& type) {
+  double next(io::ScalarType type) {
     std::array<char, 8> bytes{};
     double value = 0.0;
     if (is_ascii_ ? !(text_ >> value)
-                  : !text_.read(bytes.data(), static_cast<std::streamsize>(type.size))) {
+                  : !text_.read(bytes.data(), static_cast<std::streamsize>(io::size_of(type)))) {
       throw std::runtime_error("is cut off, or holds what is no number");
     }
     return is_ascii_ ? value : decoded(bytes, type);
   }
 
  private:
-  double decoded(std::array<char, 8>& bytes, const NumberType& type) const {
+  double decoded(std::array<char, 8>& bytes, io::ScalarType type) const {
     if (is_big_endian_) {
-      std::reverse(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(type.size));
+      std::reverse(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(io::size_of(type)));
     }
-    std::uint32_t bits = 0;
-    std::memcpy(&bits, bytes.data(), sizeof bits);
-    const bool is_negative = type.number == Number::kSigned && type.size <= sizeof bits &&
-                             (bits >> (8 * type.size - 1) & 1U) != 0;
-    // Reals are no corners of faces, and what they are is of no interest here.
-    const double modulus = std::ldexp(1.0, static_cast<int>(8 * type.size));
-    return static_cast<double>(bits) - (is_negative ? modulus : 0.0);
+    return io::visit_type(type, [&](auto value) {
+      std::memcpy(&value, bytes.data(), sizeof value);
+      return static_cast<double>(value);
+    });
   }
 
   std::istringstream text_;
@@ -113,7 +88,7 @@ std::vector<PlyElement> read_header(std::istream& file, std::string& encoding) {
       elements.push_back({type, 0, {}});
       words >> elements.back().count;
     } else if (word == "property" && !elements.empty()) {
-      std::optional<NumberType> count;
+      std::optional<io::ScalarType> count;
       if (type == "list") {
         words >> name >> type;
         count = type_named(name);

@@ -101,10 +101,8 @@ class PlyHeaderParser {
   }
 
   ScalarType scalar_type(std::string_view name) const {
-    for (const PlyType& known : kPlyTypes) {
-      if (name == known.name || name == known.sized_name) {
-        return known.scalar;
-      }
+    if (const auto type = ply_type(name)) {
+      return *type;
     }
     fail(path_, "property type " + quote(name) + " is not known");
   }
@@ -137,6 +135,15 @@ PointRecords skip_to_vertices(PlyHeader& header, const std::string& path, std::s
 }
 
 }  // namespace
+
+std::optional<ScalarType> ply_type(std::string_view name) {
+  for (const PlyType& known : kPlyTypes) {
+    if (name == known.name || name == known.sized_name) {
+      return known.scalar;
+    }
+  }
+  return std::nullopt;
+}
 
 PointRecords read_ply(const std::string& path) {
   const std::string bytes = read_file(path);

@@ -2,11 +2,16 @@
 // Copyright (c) 2026 The nvm authors
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "io/cloud/point_records.hpp"
 
 namespace nvm::io {
+
+/// The type that PLY calls `name`; nothing for other names.
+std::optional<ScalarType> ply_type(std::string_view name);
 
 /// Reads the vertices of a PLY file (1.0; ascii, binary_little_endian or binary_big_endian) with
 /// any scalar properties; other elements are left out. Throws std::runtime_error, naming the file
