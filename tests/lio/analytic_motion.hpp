@@ -17,6 +17,7 @@ struct AnalyticMotion {
   double start = 1.5;
   double sway = 1.0;     ///< amplitude of the slow translation [m]
   double turning = 0.6;  ///< amplitude of the slow rotation [rad]
+  double spin = 0.0;  ///< amplitude of fast turns about z, at up to 2.3 times that a second [rad]
 
   Pose pose(double t) const {
     const double s = smooth(t);
@@ -25,7 +26,8 @@ struct AnalyticMotion {
         sway * std::sin(0.7 * s) + 0.02 * std::sin(9.0 * s),
         sway * (1.0 - std::cos(0.5 * s)),
         0.1 * std::sin(1.1 * s) + 0.015 * std::sin(11.0 * s));
-    pose.linear() = (Eigen::AngleAxisd(turning * std::sin(0.6 * s), Eigen::Vector3d::UnitZ()) *
+    const double yaw = turning * std::sin(0.6 * s) + spin * std::pow(std::sin(2.0 * s), 3);
+    pose.linear() = (Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) *
                      Eigen::AngleAxisd(0.1 * std::sin(1.3 * s), Eigen::Vector3d::UnitY()) *
                      Eigen::AngleAxisd(0.08 * std::sin(1.7 * s), Eigen::Vector3d::UnitX()))
                         .toRotationMatrix();

@@ -17,6 +17,8 @@ namespace {
 constexpr std::size_t kMaxPoints = 150;
 constexpr std::size_t kNeighbors = 8;
 constexpr std::size_t kMinNeighbors = 5;
+constexpr double kReach = 0.6;         // of a point's surface [m]
+constexpr double kMaxDistance = 0.06;  // of a point from its surface [m]
 
 /// Planes of the map around places.
 class Surfaces {
@@ -68,6 +70,28 @@ bool sees_through(Surfaces& surfaces, const Eigen::Vector3d& from, const Eigen::
   return false;
 }
 
+double distance_from(const Plane& plane, const Eigen::Vector3d& place) {
+  return std::abs(plane.normal.dot(place - plane.centroid));
+}
+
+/// Calls `look(place, normal)`, both in the map, for kMaxPoints with normals at most.
+template <typename Look>
+void for_some(
+    const std::vector<Eigen::Vector3f>& points,
+    const std::vector<Eigen::Vector3f>& normals,
+    const Pose& T_map_scan,
+    const Look& look) {
+  const std::size_t stride = points.size() / kMaxPoints + 1;
+  for (std::size_t i = 0; i < points.size(); i += stride) {
+    if (!is_sighting(normals[i])) {
+      const Eigen::Vector3d normal = T_map_scan.linear() * normals[i].cast<double>();
+      look(
+          Eigen::Vector3d(T_map_scan * points[i].cast<double>()),
+          Eigen::Vector3f(normal.cast<float>()));
+    }
+  }
+}
+
 }  // namespace
 
 MapAgreement judge_agreement(
@@ -75,27 +99,36 @@ MapAgreement judge_agreement(
     const std::vector<Eigen::Vector3f>& points,
     const std::vector<Eigen::Vector3f>& normals,
     const Pose& T_map_scan) {
-  constexpr double kReach = 0.6;         // [m]
-  constexpr double kMaxDistance = 0.06;  // of a point from its surface [m]
   MapAgreement agreement;
   Surfaces surfaces(map);
-  const std::size_t stride = points.size() / kMaxPoints + 1;
-  for (std::size_t i = 0; i < points.size(); i += stride) {
-    if (is_sighting(normals[i])) {
-      continue;
-    }
-    const Eigen::Vector3d place = T_map_scan * points[i].cast<double>();
-    const Eigen::Vector3f normal = (T_map_scan.linear() * normals[i].cast<double>()).cast<float>();
+  for_some(points, normals, T_map_scan, [&](const auto& place, const auto& normal) {
     const std::optional<Plane> plane = surfaces.near(place, normal, kReach);
-    if (plane && std::abs(plane->normal.dot(place - plane->centroid)) <= kMaxDistance) {
+    if (plane && distance_from(*plane, place) <= kMaxDistance) {
       ++agreement.agreeing;
     } else if (plane || sees_through(surfaces, T_map_scan.translation(), place)) {
       ++agreement.contradicting;
     } else {
       ++agreement.unmapped;
     }
-  }
+  });
   return agreement;
+}
+
+double distance_from_map(
+    const LioMap& map,
+    const std::vector<Eigen::Vector3f>& points,
+    const std::vector<Eigen::Vector3f>& normals,
+    const Pose& T_map_scan) {
+  Surfaces surfaces(map);
+  double sum_sq = 0.0;
+  std::size_t count = 0;
+  for_some(points, normals, T_map_scan, [&](const auto& place, const auto& normal) {
+    const std::optional<Plane> plane = surfaces.near(place, normal, kReach);
+    const double distance = plane ? distance_from(*plane, place) : kMaxDistance;
+    sum_sq += std::pow(std::min(distance, kMaxDistance), 2);
+    ++count;
+  });
+  return std::sqrt(sum_sq / static_cast<double>(std::max<std::size_t>(count, 1)));
 }
 
 }  // namespace nvm::lio

@@ -34,4 +34,13 @@ MapAgreement judge_agreement(
     const std::vector<Eigen::Vector3f>& normals,
     const Pose& T_map_scan);
 
+/// How far points of a scan lie from the surfaces of the map at a pose: the root of their mean
+/// square distance, each counted as 6 cm at most, and as 6 cm where the map knows no surface [m].
+/// Of two poses, or two ways to deskew the same points, the better one has less.
+double distance_from_map(
+    const LioMap& map,
+    const std::vector<Eigen::Vector3f>& points,
+    const std::vector<Eigen::Vector3f>& normals,
+    const Pose& T_map_scan);
+
 }  // namespace nvm::lio

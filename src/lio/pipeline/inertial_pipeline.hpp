@@ -91,6 +91,7 @@ class InertialPipeline final : public Pipeline {
   void go_alone(const ConstantVelocity& motion);
   FrameResult process_alone(const Scan& scan);
   bool is_led_astray(const Scan& scan, const ConstantVelocity& motion, const FrameResult& result);
+  double distance_from_map(const DeskewedScan& scan, const Pose& T_map_lidar) const;
   void leave_imu(const ConstantVelocity& motion);
   void join_imu(const MotionFit& motion);
   void judge_imu(const FrameResult& result);

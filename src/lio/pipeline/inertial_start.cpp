@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "lio/imu/imu_findings.hpp"
+#include "lio/map/map_agreement.hpp"
 #include "lio/pipeline/inertial_pipeline.hpp"
+#include "lio/scan/plane_projection.hpp"
 
 namespace nvm::lio {
 
@@ -85,8 +87,9 @@ void InertialPipeline::go_alone(const ConstantVelocity& motion) {
 // A doubtful pose is compared with where the scan lies by itself.
 bool InertialPipeline::is_led_astray(
     const Scan& scan, const ConstantVelocity& motion, const FrameResult& result) {
-  constexpr double kApart = 0.02;   // [m]
-  constexpr double kTurned = 0.02;  // [rad]
+  constexpr double kApart = 0.02;    // [m]
+  constexpr double kTurned = 0.02;   // [rad]
+  constexpr double kClearly = 0.85;  // of a sweep that is deskewed badly both lie off
   if (result.residuals == 0 || !predictions_.is_doubtful()) {
     return false;
   }
@@ -95,8 +98,23 @@ bool InertialPipeline::is_led_astray(
   const Pose apart = filter_->state().T_world_lidar().inverse() * alone.T_map_lidar;
   const bool is_elsewhere =
       apart.translation().norm() > kApart || so3_log(apart.linear()).norm() > kTurned;
-  return is_elsewhere && is_believed(alone.status) && alone.unobserved.empty() &&
-         alone.inlier_share > result.inlier_share;
+  if (!is_elsewhere || !is_believed(alone.status) || !alone.unobserved.empty()) {
+    return false;
+  }
+  DeskewedScan alone_scan = alone_.scan();
+  project_to_planes(alone_.estimated(), options_.max_plane_offset, alone_scan);
+  return distance_from_map(alone_scan, alone.T_map_lidar) <
+         kClearly * distance_from_map(prepared_.scan, filter_->state().T_world_lidar());
+}
+
+// Of the points that the scans alone have matched, wherever a motion has placed them: of a scan
+// that is deskewed badly the walls that tell it are thick, and no planes to its own matching.
+double InertialPipeline::distance_from_map(
+    const DeskewedScan& scan, const Pose& T_map_lidar) const {
+  std::vector<Eigen::Vector3f> points, normals;
+  pick(scan.points, alone_.keypoints(), points);
+  pick(alone_.normals(), alone_.keypoints(), normals);
+  return lio::distance_from_map(*map_, points, normals, T_map_lidar);
 }
 
 // Each time soon after the last it must prove itself for twice as long: after the third for longer

@@ -142,8 +142,8 @@ const LidarOdometry::Normals& LidarOdometry::prepare(const Scan& scan, FrameResu
   }
   const StageTimer timer(result.times.normals);
   result.points = scan_.size();
-  normals_ = &normal_estimator_.estimate(scan_.points, scan_.viewpoints, executor_).normals;
-  return *normals_;
+  estimated_ = &normal_estimator_.estimate(scan_.points, scan_.viewpoints, executor_);
+  return estimated_->normals;
 }
 
 void LidarOdometry::match(const Normals& normals, FrameResult& result) {
@@ -197,10 +197,10 @@ void LidarOdometry::describe_directions(FrameResult& result) {
 }
 
 void LidarOdometry::choose_keypoints(const Normals& normals) {
-  const std::vector<std::uint32_t>& keypoints = sampler_.sample(scan_.points, normals);
-  pick(scan_.points, keypoints, key_points_);
-  pick(normals, keypoints, key_normals_);
-  pick(scan_.ages, keypoints, key_ages_);
+  keypoints_ = sampler_.sample(scan_.points, normals);
+  pick(scan_.points, keypoints_, key_points_);
+  pick(normals, keypoints_, key_normals_);
+  pick(scan_.ages, keypoints_, key_ages_);
 }
 
 void LidarOdometry::watch_deskewing(const Pose& T_map_lidar) {

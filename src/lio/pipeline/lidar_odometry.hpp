@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -53,9 +54,13 @@ class LidarOdometry final : public Pipeline {
   FrameResult process(const Scan& scan) override;
   const LioMap& map() const override { return *map_; }
   const DeskewedScan& scan() const override { return scan_; }
-  const std::vector<Eigen::Vector3f>& normals() const override { return *normals_; }
+  const std::vector<Eigen::Vector3f>& normals() const override { return estimated_->normals; }
   void start_at(const Pose& T_map_body) override;
   std::vector<std::string> findings() const override;
+  /// Planes of scan().
+  const NormalResult& estimated() const { return *estimated_; }
+  /// Of scan(): those that were matched.
+  const std::vector<std::uint32_t>& keypoints() const { return keypoints_; }
   /// What the scans say of the times of their points. Others may lead some of the scans.
   DeskewWatch& deskew_watch() { return deskew_watch_; }
   const DeskewWatch& deskew_watch() const { return deskew_watch_; }
@@ -99,10 +104,11 @@ class LidarOdometry final : public Pipeline {
   // Kept for their memory.
   std::vector<MotionSegment> segments_;
   DeskewedScan scan_;
+  std::vector<std::uint32_t> keypoints_;
   std::vector<Eigen::Vector3f> key_points_, key_normals_;
   std::vector<float> key_ages_;
-  Normals no_normals_;
-  const Normals* normals_ = &no_normals_;  // of scan_
+  NormalResult nothing_;
+  const NormalResult* estimated_ = &nothing_;  // of scan_
 };
 
 }  // namespace nvm::lio
