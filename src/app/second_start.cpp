@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <system_error>
@@ -46,11 +47,17 @@ SecondStart::SecondStart(const std::string& input, std::string file) : file_(std
 
 bool SecondStart::is_due(const lio::Pipeline& pipeline, double time) {
   constexpr double kToSettle = 5.0;   // clocks are told better and better [s]
+  constexpr double kSettled = 1e-3;   // [s]
   constexpr double kLongest = 300.0;  // of the run, that is thrown away [s]
   first_ = first_.value_or(time);
   const auto better =
       is_begun_ || time > *first_ + kLongest ? std::nullopt : pipeline.better_imu_input();
-  begin_ = better ? begin_.value_or(time) : std::optional<double>();
+  if (!better) {
+    begin_.reset();
+  } else if (!begin_ || std::abs(better->time_offset - offset_then_) > kSettled) {
+    begin_ = time;
+    offset_then_ = better->time_offset;
+  }
   better_ = better.value_or(better_);
   return begin_ && time >= *begin_ + kToSettle;
 }

@@ -30,7 +30,8 @@ class SecondStart {
   std::string file_;
   bool is_begun_ = false;
   std::optional<double> first_;  ///< time of the first frame [s]
-  std::optional<double> begin_;  ///< since when there is a `better_` [s]
+  std::optional<double> begin_;  ///< since when there is a `better_`, with a clock that stays [s]
+  double offset_then_ = 0.0;     ///< of the clock at `begin_` [s]
   lio::ImuInputOptions better_;
   bool is_pipe_ = false;
 };

@@ -14,6 +14,7 @@ namespace nvm::app {
 namespace {
 
 using test::Outcome;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -50,8 +51,9 @@ TEST_F(SecondStartTest, HasWhatWasFoundHoldFromTheFirstScanOn) {
   simulate("0.06");
   const Outcome found = run_walk("found");
   EXPECT_EQ(found.status, 0) << found.errors;
-  EXPECT_THAT(found.errors, HasSubstr("clock is 59"));
-  EXPECT_THAT(found.errors, HasSubstr("the run begins again, with imu.time_offset=-0.059"));
+  EXPECT_THAT(found.errors, ContainsRegex("clock is (5[89]|60)"));
+  EXPECT_THAT(
+      found.errors, ContainsRegex("the run begins again, with imu.time_offset=-0.0(5[789]|6)"));
   const Outcome told = run_walk("told", "--set imu.time_offset=-0.06");
   EXPECT_THAT(told.errors, Not(HasSubstr("begins again")));
   EXPECT_LT(difference("found", "told"), 0.003);  // 19 mm without a second start

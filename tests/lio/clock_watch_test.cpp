@@ -18,6 +18,7 @@ struct Clock {
   double start = -3.0;             ///< until then the body rests [s]
   bool is_mended = true;
   double hidden = 0.0;  ///< share of what is left that poses hide, which lean on the IMU
+  double astray = 0.0;  ///< how far such poses turn to and fro in the first 4 s [rad]
 };
 
 /// What is found in 30 s of a turning motion. Poses at 10 Hz are good to 0.05 mrad.
@@ -39,6 +40,8 @@ ClockWatch watch(const Clock& clock) {
     history.add(reading);
     if (i % 10 == 9) {
       Pose pose = motion.pose(t);
+      pose.linear() *=
+          so3_exp(Eigen::Vector3d(0.0, 0.0, t < 4.0 && i % 20 == 9 ? clock.astray : 0.0));
       pose.linear() *=
           so3_exp(5e-5 * Eigen::Vector3d(noise(generator), noise(generator), noise(generator)));
       history.add(StampedPose{t, pose});
@@ -78,6 +81,16 @@ TEST(ClockWatch, SaysAndMendsNothingOfClocksThatAgreeNorWithoutTurns) {
     EXPECT_EQ(watch(clock).finding(), "");
     EXPECT_EQ(watch(clock).mended(), 0.0);
     EXPECT_FALSE(watch(clock).was_late_at_first());
+  }
+}
+
+TEST(ClockWatch, DoesNotAskPosesThatWentAstrayWhetherItWasLateAtFirst) {
+  for (const double late : {0.05, -0.05}) {
+    for (const double astray : {0.05, -0.05, 0.1, -0.1}) {
+      const ClockWatch clocks = watch({late, late, -3.0, true, 0.0, astray});
+      EXPECT_NEAR(clocks.mended(), late, 0.0015) << astray;
+      EXPECT_TRUE(clocks.was_late_at_first()) << late << ", " << astray;
+    }
   }
 }
 

@@ -76,6 +76,7 @@ bool ClockWatch::look(const MotionHistory& history, double begin) {
   constexpr int kIterations = 4;
   constexpr double kWander = 1e-4;         // of clocks, in a second [s]
   constexpr double kLeastVariance = 1e-8;  // of a stretch [s^2]
+  constexpr double kSure = 0.01;           // [s]
   const std::vector<MotionHistory::Turn> turns = history.turns();
   Differences there = differences_at(history, turns, begin, 0.0);
   if (there.count < kMinCount || there.sq_change < kMinChange) {
@@ -98,12 +99,14 @@ bool ClockWatch::look(const MotionHistory& history, double begin) {
   const double gain = variance_ / (variance_ + variance);
   left_ += gain * (offset - left_);
   variance_ *= 1.0 - gain;
+  if (variance < kSure * kSure) {
+    earliest_ = earliest_.value_or(mended_ + offset);
+  }
   note(time, mended_ + offset, variance + hidden_variance(offset));
   return true;
 }
 
 void ClockWatch::note(double time, double offset, double variance) {
-  earliest_ = earliest_.value_or(offset);
   first_ = w_ > 0.0 ? first_ : time;
   const double t = time - first_;
   const double weight = 1.0 / variance;

@@ -44,7 +44,7 @@ class ClockWatch {
   double variance_ = 0.05 * 0.05;   ///< of left_ [s^2]
   double time_ = 0.0;               ///< of the last look [s]
   double mended_ = 0.0;             ///< [s]
-  std::optional<double> earliest_;  ///< offset by the first stretch, or mended before any [s]
+  std::optional<double> earliest_;  ///< offset by the first that was sure, or mended before any [s]
   // Sums over the stretches, each with the weight that it is sure: of 1, time, offset, ...
   double first_ = 0.0;  ///< time of the first [s]
   double w_ = 0.0, wt_ = 0.0, wo_ = 0.0, wtt_ = 0.0, wto_ = 0.0;

@@ -89,7 +89,7 @@ bool InertialPipeline::is_led_astray(
     const Scan& scan, const ConstantVelocity& motion, const FrameResult& result) {
   constexpr double kApart = 0.02;    // [m]
   constexpr double kTurned = 0.02;   // [rad]
-  constexpr double kClearly = 0.85;  // of a sweep that is deskewed badly both lie off
+  constexpr double kClearly = 0.92;  // of a sweep that is deskewed badly both lie off
   if (result.residuals == 0 || !predictions_.is_doubtful()) {
     return false;
   }
