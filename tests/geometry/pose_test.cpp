@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "nvm/geometry/trajectory.hpp"
 #include "support/rng.hpp"
 
 namespace nvm {
@@ -75,6 +76,10 @@ TEST(So3, TurnsOfOneAxisAdd) {
     const double b = part(rng);
     EXPECT_LT((so3_exp(a * axis) * so3_exp(b * axis) - so3_exp((a + b) * axis)).norm(), 1e-14);
   }
+}
+
+TEST(Pose, IsTheIdentityWhereNoneIsGiven) {
+  EXPECT_EQ(StampedPose().pose.matrix(), Pose::Identity().matrix());
 }
 
 TEST(Skew, IsTheCrossProduct) {

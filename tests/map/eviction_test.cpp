@@ -6,6 +6,7 @@
 #include <map>
 #include <vector>
 
+#include "nvm/map/map_archive.hpp"
 #include "nvm/map/voxel_map.hpp"
 #include "support/random_cloud.hpp"
 #include "support/rng.hpp"
@@ -208,6 +209,7 @@ TEST(Lru, TheVoxelThatGrowsIsNotEvictedForItself) {
   std::size_t grown = 0;
   map.for_each_within(center_of(0), 0.15, [&](const Neighbor&) { ++grown; });
   EXPECT_EQ(grown, 40U);
+  EXPECT_EQ(MapArchive::read(MapArchive::write(map)).size(), map.size());  // it still has its turn
 }
 
 TEST(RadiusEviction, KeepsWhatIsNear) {

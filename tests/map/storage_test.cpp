@@ -52,7 +52,7 @@ TEST(Lattice, PositionsComeBackWithinHalfAStep) {
     std::uniform_real_distribution<double> u(-1e5, 1e5);
     for (int i = 0; i < 1000; ++i) {
       const Eigen::Vector3d position(u(rng), u(rng), u(rng));
-      LatticePoint point{VoxelIndex::Zero(), Eigen::Vector3i::Zero()};
+      LatticePoint point{{0, 0, 0}, {0, 0, 0}};
       ASSERT_EQ(lattice.locate(position, point), LatticeStatus::kInside);
       const Eigen::Vector3d error = lattice.position(point.voxel, point.step) - position;
       EXPECT_LT(error.cwiseAbs().maxCoeff(), 0.5001 * lattice.meters_per_step());

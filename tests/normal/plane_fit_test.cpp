@@ -62,6 +62,29 @@ TEST(PlaneFit, OffsetAndVarianceAreThoseOfTheNeighboursOfEachPoint) {
   EXPECT_GT(checked, 300U);
 }
 
+// Where the radius covers all cells, the plane of each cell is that of all points.
+TEST(PlaneFit, OfACellIsThatOfItsNeighboursAsSeenFromEachPoint) {
+  std::mt19937_64 rng = test::rng();
+  std::normal_distribution<float> noise(0.0F, 0.02F);
+  std::vector<Vector3f> points;
+  for (const Vector3d& point : wall(2.0)) {
+    points.emplace_back(point.cast<float>() + Vector3f(noise(rng), noise(rng), noise(rng)));
+  }
+  constexpr float kRadius = 3.0F;
+  NormalOptions options = fixed_radius(kRadius);
+  options.method = NormalMethod::kPerCell;
+  const NormalResult result = estimate_normals(points, Vector3d(0, 0, 0), options);
+  ASSERT_EQ(result.stats.valid, points.size());
+  const Fit fit(points, points[0], kRadius);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    EXPECT_NEAR(
+        static_cast<double>(result.plane_offsets[i]),
+        result.normals[i].cast<double>().dot(fit.mean - points[i].cast<double>()),
+        1e-4);
+    EXPECT_NEAR(static_cast<double>(result.plane_variances[i]), fit.variance, 0.01 * fit.variance);
+  }
+}
+
 TEST(PlaneFit, OffsetsLieAlongTheNormalThatLooksBack) {
   std::vector<Vector3d> points = wall(2.0);
   points[220].x() += 0.05;  // behind its wall: the plane lies before it

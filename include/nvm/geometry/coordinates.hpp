@@ -11,7 +11,9 @@
 // by every file that includes it, whether it calls the function or not; in a template, one whose
 // types do not depend on it is so in part. Functions of include/nvm calculate with coordinates
 // instead, or are made of the types that they are given: most of what nvm/nvm.hpp cost to
-// include (docs/performance.md).
+// include (docs/performance.md). For the same reason functions and classes that use containers,
+// tables or much else are templates even where there is nothing to choose (`template <class =
+// void>`): only the files that call them have them compiled.
 namespace nvm::detail {
 inline namespace NVM_TARGET {
 

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "nvm/core/finite.hpp"
 #include "nvm/core/target.hpp"
@@ -17,6 +18,24 @@ inline namespace NVM_TARGET {
 /// A rigid transform T_a_b that maps coordinates of frame b to frame a. DontAlign, because the
 /// alignment of Eigen::Isometry3d depends on -march and would make it part of every user's ABI.
 using Pose = Eigen::Transform<double, 3, Eigen::Isometry, Eigen::DontAlign>;
+
+}  // namespace NVM_TARGET
+namespace detail {
+inline namespace NVM_TARGET {
+
+/// Pose::Identity(), for functions that are no templates. Out of its coefficients, because Eigen
+/// has expressions in each of its ways to make one (coordinates.hpp).
+inline Pose identity() {
+  static_assert(sizeof(Pose) == 16 * sizeof(double));
+  const double columns[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+  alignas(Pose) unsigned char pose[sizeof(Pose)];
+  std::memcpy(pose, columns, sizeof(pose));
+  return *reinterpret_cast<const Pose*>(pose);
+}
+
+}  // namespace NVM_TARGET
+}  // namespace detail
+inline namespace NVM_TARGET {
 
 /// A copy of the rotation R_a_b.
 inline Eigen::Matrix3d rotation_of(const Pose& T_a_b) {
@@ -30,7 +49,8 @@ inline Eigen::Matrix3d rotation_of(const Pose& T_a_b) {
 }
 
 /// Skew-symmetric matrix [v]x with [v]x w = v x w.
-inline Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
+template <class = void>
+Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
   Eigen::Matrix3d m;
   m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
   return m;

@@ -228,7 +228,8 @@ struct EigenDecomposition {
   Eigen::Matrix3d vectors;
 };
 
-inline EigenDecomposition eigen_decomposition(const Eigen::Matrix3d& m) {
+template <class = void>
+EigenDecomposition eigen_decomposition(const Eigen::Matrix3d& m) {
   const Eigen3<double> e =
       eigen_decomposition(Symmetric3<double>{m(0, 0), m(1, 0), m(2, 0), m(1, 1), m(2, 1), m(2, 2)});
   const Vector3Of<double>& s = e.smallest_vector;

@@ -16,7 +16,7 @@ namespace nvm {
 /// A pose and its time [s].
 struct StampedPose {
   double time = 0.0;
-  Pose pose = Pose::Identity();
+  Pose pose = detail::identity();
 };
 
 /// Poses in ascending order of time.
@@ -38,8 +38,8 @@ Transform interpolate(const Transform& a, const Transform& b, double alpha) {
 
 /// The pose of `trajectory`, or any such range, at `time` [s], interpolated; nothing outside its
 /// time span.
-template <class Poses>
-std::optional<Pose> pose_at(const Poses& trajectory, double time) {
+template <class Poses, class Transform = Pose>
+std::optional<Transform> pose_at(const Poses& trajectory, double time) {
   const auto next = std::lower_bound(
       trajectory.begin(), trajectory.end(), time, [](const StampedPose& pose, double t) {
         return pose.time < t;

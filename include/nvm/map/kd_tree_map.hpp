@@ -28,18 +28,20 @@ inline namespace NVM_TARGET {
 /// A map of bare points in a k-d tree that is rebuilt at every insertion: the baseline that knows
 /// no normals and no sides, with exact neighbours at any distance. Models the map concept, by
 /// nanoflann 1.4 or later. Grows without bound; insertion costs O(n log n) of the whole map.
-class KdTreeMap {
+/// `Real` is double.
+template <class Real>
+class BasicKdTreeMap {
  public:
   struct QueryContext {};
 
   /// Keeps one point per cubic cell with edge `point_spacing` [m], positive. Throws
   /// std::invalid_argument otherwise.
-  explicit KdTreeMap(double point_spacing = 0.1)
+  explicit BasicKdTreeMap(double point_spacing = 0.1)
       : occupied_(checked(point_spacing)), tree_(3, *this) {}
 
   // The tree points to the map.
-  KdTreeMap(const KdTreeMap&) = delete;
-  KdTreeMap& operator=(const KdTreeMap&) = delete;
+  BasicKdTreeMap(const BasicKdTreeMap&) = delete;
+  BasicKdTreeMap& operator=(const BasicKdTreeMap&) = delete;
 
   /// Adds `points` (any point range, frame scan). Counts what was dropped.
   template <class Points>
@@ -150,8 +152,8 @@ class KdTreeMap {
   };
 
   using Tree = nanoflann::KDTreeSingleIndexAdaptor<
-      nanoflann::L2_Simple_Adaptor<double, KdTreeMap>,
-      KdTreeMap,
+      nanoflann::L2_Simple_Adaptor<Real, BasicKdTreeMap>,
+      BasicKdTreeMap,
       3,
       std::uint32_t>;
 
@@ -168,6 +170,8 @@ class KdTreeMap {
   VoxelSet occupied_;
   Tree tree_;
 };
+
+using KdTreeMap = BasicKdTreeMap<double>;
 
 }  // namespace NVM_TARGET
 }  // namespace nvm

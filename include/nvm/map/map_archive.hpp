@@ -31,10 +31,11 @@ inline namespace NVM_TARGET {
 // Older versions that are still read: 3 had no columns; 2 had neither max_merged_points nor what it
 // counts nor the present epoch either, and counted the epochs without gaps.
 
-/// Turns a VoxelMap into bytes and back; see save_map() and load_map().
-class MapArchive {
+/// Turns a VoxelMap, which is `Map`, into bytes and back; see save_map() and load_map().
+template <class Map>
+class BasicMapArchive {
  public:
-  static std::vector<std::uint8_t> write(const VoxelMap& map) {
+  static std::vector<std::uint8_t> write(const Map& map) {
     detail::ByteWriter body;
     visit_options(map.options(), OptionWriter{body});
     write_voxels(map.engine_.storage(), map.options().columns, body);
@@ -50,7 +51,7 @@ class MapArchive {
 
   /// Throws std::runtime_error, saying what is wrong, unless `bytes` are exactly what write()
   /// gives, or gave in an older version that is still read.
-  static VoxelMap read(const std::vector<std::uint8_t>& bytes) {
+  static Map read(const std::vector<std::uint8_t>& bytes) {
     detail::ByteReader file(bytes.data(), bytes.size());
     check(bytes.size() >= kHeaderBytes + sizeof(std::uint32_t), "is too short for an nvm map");
     check(file.get<std::uint64_t>() == kMagic, "is not an nvm map");
@@ -70,7 +71,7 @@ class MapArchive {
         "is corrupt: its checksum is wrong");
 
     detail::ByteReader body(bytes.data() + kHeaderBytes, end - kHeaderBytes);
-    VoxelMap map(read_options(body, version));
+    Map map(read_options(body, version));
     read_voxels(body, version, map);
     check(body.left() == 0, "is corrupt: it does not end where it should");
     return map;
@@ -201,7 +202,7 @@ class MapArchive {
     });
   }
 
-  static void read_voxels(detail::ByteReader& in, std::uint32_t version, VoxelMap& map) {
+  static void read_voxels(detail::ByteReader& in, std::uint32_t version, Map& map) {
     detail::Recency& recency = map.engine_.storage().recency();
     const auto count = in.get<std::uint64_t>();
     for (std::uint64_t i = 0; i < count; ++i) {
@@ -225,7 +226,7 @@ class MapArchive {
     return index;
   }
 
-  static void read_voxel(detail::ByteReader& in, VoxelMap& map) {
+  static void read_voxel(detail::ByteReader& in, Map& map) {
     detail::VoxelStorage& storage = map.engine_.storage();
     const detail::VoxelIndex index = read_index(in);
     const auto listed = in.get<std::uint32_t>();
@@ -253,7 +254,7 @@ class MapArchive {
   }
 
   static void read_surface(
-      detail::ByteReader& in, VoxelMap& map, const detail::VoxelIndex& index, std::uint32_t head) {
+      detail::ByteReader& in, Map& map, const detail::VoxelIndex& index, std::uint32_t head) {
     const int size = in.get<std::uint8_t>();
     check(size >= 1 && size <= map.options().points_per_surface, "is corrupt: number of points");
     std::uint32_t last = head;
@@ -292,6 +293,8 @@ class MapArchive {
     }
   }
 };
+
+using MapArchive = BasicMapArchive<VoxelMap>;
 
 }  // namespace NVM_TARGET
 }  // namespace nvm

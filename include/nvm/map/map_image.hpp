@@ -23,14 +23,15 @@ inline namespace NVM_TARGET {
 // and the numbers that VoxelStorage::visit_state() shows; its arrays, in that order. Each begins on
 // a page.
 
-/// Writes and maps images of maps; see save_map_image() and load_map().
-class MapImage {
+/// Writes and maps images of a VoxelMap, which is `Map`; see save_map_image() and load_map().
+template <class Map>
+class BasicMapImage {
  public:
   /// Whether all was written.
-  static bool write(const VoxelMap& map, std::FILE* file) {
+  static bool write(const Map& map, std::FILE* file) {
     detail::StateWriter state;
     detail::VoxelStorage::visit_state(map.engine_.storage(), state);
-    const std::vector<std::uint8_t> archive = MapArchive::write(VoxelMap(map.options()));
+    const std::vector<std::uint8_t> archive = Archive::write(Map(map.options()));
     const std::size_t number_bytes = state.numbers.size() * sizeof(std::uint64_t);
     std::vector<std::uint8_t> head(archive.size() + number_bytes);
     std::memcpy(head.data(), archive.data(), archive.size());
@@ -59,7 +60,7 @@ class MapImage {
   }
 
   /// Throws std::runtime_error, saying what is wrong.
-  static VoxelMap read(const detail::ImageFile& file) {
+  static Map read(const detail::ImageFile& file) {
     check(is_image(file), "is not an image of an nvm map");
     const Header header = header_of(file);
     check(
@@ -76,7 +77,7 @@ class MapImage {
     std::vector<std::uint8_t> head(detail::whole_pages(archive_bytes + number_bytes));
     file.read(detail::kImagePage, head.data(), head.size());
     std::memcpy(numbers.data(), head.data() + archive_bytes, number_bytes);
-    VoxelMap map = MapArchive::read({head.data(), head.data() + archive_bytes});
+    Map map = Archive::read({head.data(), head.data() + archive_bytes});
     detail::PageChecksum checksum;
     checksum.add(head.data(), head.size());
     detail::StateReader state(file, std::move(numbers), detail::kImagePage + head.size(), checksum);
@@ -87,6 +88,8 @@ class MapImage {
   }
 
  private:
+  using Archive = BasicMapArchive<Map>;
+
   struct Header {
     std::uint64_t magic;
     std::uint32_t version;
@@ -127,6 +130,8 @@ class MapImage {
     return static_cast<std::uint32_t>(sum);
   }
 };
+
+using MapImage = BasicMapImage<VoxelMap>;
 
 }  // namespace NVM_TARGET
 }  // namespace nvm

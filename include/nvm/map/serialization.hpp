@@ -33,14 +33,15 @@ inline constexpr const char* kCreate = "wb";
 
 /// Opens a file beside `path` that nobody else writes to, and says which in `name`. Null when that
 /// is impossible.
-inline File create_beside(const std::string& path, std::string& name) {
+template <class = void>
+File create_beside(const std::string& path, std::string& name) {
   constexpr int kMostLeftovers = 100;  // of programs that were killed while they wrote
-  File file;
+  std::FILE* file = nullptr;
   for (int i = 0; i < kMostLeftovers && file == nullptr; ++i) {
     name = path + (i == 0 ? "" : "." + std::to_string(i)) + ".part";
-    file.reset(std::fopen(name.c_str(), kCreate));
+    file = std::fopen(name.c_str(), kCreate);
   }
-  return file;
+  return File(file);
 }
 
 /// Has the bytes reach the disk before whatever follows, where that can be asked for.
@@ -58,7 +59,7 @@ template <class Write>
 void replace_file(const std::string& path, const Write& write) {
   std::string temporary;
   File file = create_beside(path, temporary);
-  if (file == nullptr) {
+  if (file.get() == nullptr) {
     throw std::runtime_error(path + ": cannot be written");
   }
   bool ok = write(file.get()) && flush_to_disk(file.get());
@@ -70,7 +71,8 @@ void replace_file(const std::string& path, const Write& write) {
 }
 
 /// Throws std::runtime_error unless the bytes of a map can be read back.
-inline void check_archive(const std::vector<std::uint8_t>& bytes, const std::string& path) {
+template <class = void>
+void check_archive(const std::vector<std::uint8_t>& bytes, const std::string& path) {
   try {
     MapArchive::read(bytes);
   } catch (const std::runtime_error& error) {
@@ -87,7 +89,8 @@ inline namespace NVM_TARGET {
 /// Writes `map` to `path`: to a temporary file beside it first, and only once it is known that it
 /// can be read back, so that no broken map is ever left there. Throws std::runtime_error, naming
 /// the path, when it cannot be written.
-inline void save_map(const VoxelMap& map, const std::string& path) {
+template <class = void>
+void save_map(const VoxelMap& map, const std::string& path) {
   const std::vector<std::uint8_t> bytes = MapArchive::write(map);
   detail::check_archive(bytes, path);
   detail::replace_file(path, [&bytes](std::FILE* file) {
@@ -98,7 +101,8 @@ inline void save_map(const VoxelMap& map, const std::string& path) {
 /// Writes an image of `map` to `path`: the map as it lies in memory, for this build of nvm and
 /// processors like this one. What is to be kept, or sent to others, is what save_map() writes.
 /// Throws std::runtime_error, naming the path, when it cannot be written.
-inline void save_map_image(const VoxelMap& map, const std::string& path) {
+template <class = void>
+void save_map_image(const VoxelMap& map, const std::string& path) {
   detail::replace_file(path, [&map](std::FILE* file) { return MapImage::write(map, file); });
 }
 
@@ -109,7 +113,8 @@ inline void save_map_image(const VoxelMap& map, const std::string& path) {
 /// cannot be mapped it is read. Throws std::runtime_error, naming the path and what is wrong, when
 /// the file cannot be read, is truncated, corrupt or something else, or is an image of another
 /// build or for another processor.
-inline VoxelMap load_map(const std::string& path) {
+template <class = void>
+VoxelMap load_map(const std::string& path) {
   try {
     const detail::ImageFile file(path);
     return MapImage::is_image(file) ? MapImage::read(file) : MapArchive::read(file.contents());

@@ -26,8 +26,10 @@
 namespace nvm {
 
 inline namespace NVM_TARGET {
-class MapArchive;
-class MapImage;
+template <class Map>
+class BasicMapArchive;
+template <class Map>
+class BasicMapImage;
 }  // namespace NVM_TARGET
 
 /// The NVM voxel map (paper III-B, spec §3): points with normals in voxels that keep a front and a
@@ -119,6 +121,7 @@ class VoxelMap {
   /// Writes to `out`, which has room for search.count, and returns how many. Only a sighting finds
   /// sightings, and normals too (sighting.hpp). Nothing is found for a bad point or a normal of
   /// another length.
+  template <class = void>
   NVM_SHARED std::size_t nearest(
       const Eigen::Vector3d& point,
       const Eigen::Vector3f& normal,
@@ -129,6 +132,7 @@ class VoxelMap {
   }
 
   /// The same without normals: both sides.
+  template <class = void>
   NVM_SHARED std::size_t nearest(
       const Eigen::Vector3d& point,
       const NearestSearch& search,
@@ -166,6 +170,7 @@ class VoxelMap {
   NVM_SHARED void for_each_point(Visitor&& visit) const {
     engine_.for_each_point(visit);
   }
+  template <class = void>
   NVM_SHARED std::vector<MapPoint> points() const {
     std::vector<MapPoint> points;
     points.reserve(size());
@@ -176,21 +181,25 @@ class VoxelMap {
   // --- erasing; all return the number of points erased
 
   /// Erases the points in the box from `min` to `max` [m], inclusive.
+  template <class = void>
   NVM_SHARED std::size_t erase_box(const Eigen::Vector3d& min, const Eigen::Vector3d& max) {
     return engine_.erase_region(detail::BoxRegion{min, max});
   }
   /// Erases the points at most `radius` [m] from `center`.
+  template <class = void>
   NVM_SHARED std::size_t erase_within(const Eigen::Vector3d& center, double radius) {
     return engine_.erase_region(detail::BallRegion{center, radius});
   }
   /// Erases the voxels whose centre is farther than `radius` [m] from `center`: what CT-LIO does
   /// after every scan.
+  template <class = void>
   NVM_SHARED std::size_t erase_voxels_beyond(const Eigen::Vector3d& center, double radius) {
     return engine_.erase_voxels_beyond(center, radius);
   }
   /// The same as eviction, counted in the statistics of the scan that was inserted last: what a
   /// pipeline or host that bounds its map by distance calls after each scan, because only it knows
   /// where the sensor is.
+  template <class = void>
   NVM_SHARED void keep_within(const Eigen::Vector3d& center, double radius, InsertStats& stats) {
     engine_.keep_within(center, radius, stats);
   }
@@ -213,8 +222,8 @@ class VoxelMap {
   }
 
  private:
-  friend MapArchive;
-  friend MapImage;
+  friend BasicMapArchive<VoxelMap>;
+  friend BasicMapImage<VoxelMap>;
 
   detail::MapEngine engine_;
 };

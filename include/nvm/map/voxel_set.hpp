@@ -22,9 +22,11 @@ class VoxelSet {
   enum class Insertion : std::uint8_t { kNewCell, kOccupied, kNonFinite, kOutOfRange };
 
   /// `cell_size` [m], positive.
+  template <class = void>
   explicit VoxelSet(double cell_size) : lattice_(cell_size), keys_(kSmallest, kFree) {}
 
   /// Occupies the cell of `position` [m], floor(position / cell_size) per axis. O(1).
+  template <class = void>
   Insertion insert(const Eigen::Vector3d& position) {
     detail::LatticePoint point;
     switch (lattice_.locate(position, point)) {
@@ -50,6 +52,7 @@ class VoxelSet {
   /// Cells that hold a point.
   std::size_t size() const { return size_; }
 
+  template <class = void>
   void clear() {
     std::fill(keys_.begin(), keys_.end(), kFree);
     size_ = 0;
@@ -78,6 +81,7 @@ class VoxelSet {
     return keys_[i];
   }
 
+  template <class = void>
   void grow() {
     std::vector<std::uint64_t> old(keys_.size() * 2, kFree);
     old.swap(keys_);

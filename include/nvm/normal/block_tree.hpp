@@ -57,6 +57,7 @@ class BlockTree {
  private:
   std::uint32_t group_count() const { return static_cast<std::uint32_t>(first_below.size()); }
 
+  template <class = void>
   void clear() {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       min[axis].clear();
@@ -67,6 +68,7 @@ class BlockTree {
   }
 
   // Appends whole groups of empty nodes, `nodes` at least.
+  template <class = void>
   void append_level(std::uint32_t nodes) {
     const std::size_t groups = group_count() + (nodes + kFanout - 1) / kFanout;
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -79,6 +81,7 @@ class BlockTree {
   }
 
   // Bounds the groups from `first` on; returns the first group of the new level.
+  template <class = void>
   std::uint32_t add_level_above(std::uint32_t first) {
     const std::uint32_t level = group_count();
     append_level(level - first);
@@ -103,6 +106,7 @@ class BlockTree {
     clusters[leaf] = merge(size, [&](std::size_t i) { return items.cluster(begin + i); });
   }
 
+  template <class = void>
   void bound_group(std::uint32_t group, std::uint32_t node) {
     const std::size_t begin = std::size_t{group} * kFanout;
     for (std::size_t axis = 0; axis < 3; ++axis) {

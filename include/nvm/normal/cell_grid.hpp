@@ -27,6 +27,7 @@ class CellGrid {
 
   /// Builds a cell of each cube that `sorter` made of `points`. A cell reaches as far as its first
   /// point, `min_radius` [m] at least.
+  template <class = void>
   void build(const SortedPoints& points, const SpatialSorter& sorter, double min_radius) {
     cells_.clear();
     begin_.clear();

@@ -62,6 +62,7 @@ struct LocalPoints {
 
   std::vector<float> x, y, z, sq_radius;
 
+  template <class = void>
   void resize(std::size_t size) {
     x.resize(size);
     y.resize(size);

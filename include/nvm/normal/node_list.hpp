@@ -30,6 +30,7 @@ struct BitPositions {
   }
 };
 
+template <class>
 inline constexpr BitPositions kBitPositions{};
 
 /// A list of node numbers on the stack.
@@ -48,8 +49,9 @@ class NodeList {
   void clear() { size_ = 0; }
 
   /// Appends first + i for each set bit i of `bits`, at most eight, without a branch.
+  template <class Unused = void>
   void append(std::uint32_t first, std::uint32_t bits) {
-    const BitPositions::Row& row = kBitPositions.rows[bits];
+    const BitPositions::Row& row = kBitPositions<Unused>.rows[bits];
     for (std::size_t i = 0; i < 8; ++i) {
       items_[size_ + i] = first + row.position[i];
     }

@@ -169,6 +169,7 @@ class NormalEstimator {
   }
 
   // The queries whose neighbours are a line or too few, with a wider radius, into wider_.
+  template <class = void>
   void select_thin(const detail::SortedPoints& queries, const std::vector<NormalStatus>& status) {
     const auto sq_widening = static_cast<float>(options_.widening * options_.widening);
     wider_.resize(queries.size());

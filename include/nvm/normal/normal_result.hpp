@@ -51,7 +51,8 @@ struct NormalResult {
 
 inline namespace NVM_TARGET {
 
-inline NormalStats count_statuses(const std::vector<NormalStatus>& status) {
+template <class = void>
+NormalStats count_statuses(const std::vector<NormalStatus>& status) {
   constexpr std::size_t kStatuses = static_cast<std::size_t>(NormalStatus::kNotPlanar) + 1;
   std::size_t counts[kStatuses] = {};
   for (const NormalStatus s : status) {

@@ -26,6 +26,7 @@ class PlaneJudge {
         max_surface_variation_(static_cast<float>(options.max_surface_variation)) {}
 
   /// Writes status and plane, its normal of either sign, of one block of queries.
+  template <class = void>
   void operator()(
       const QueryBlock& query, const Moments<FloatLanes>& sums, NormalResult& result) const {
     const Eigen3<FloatLanes> eigen = eigen_decomposition(scatter(sums));
@@ -54,6 +55,7 @@ class PlaneJudge {
   }
 
   // A NormalStatus per lane. The comparisons are false for NaN, which no plane has.
+  template <class = void>
   FloatLaneBits judge(const FloatLanes& count, const Eigen3<FloatLanes>& eigen) const {
     const FloatLanes sum = eigen.smallest + eigen.middle + eigen.largest;
     const auto is_flat = eigen.smallest <= max_surface_variation_ * sum;

@@ -21,8 +21,8 @@ struct KeyedIndex {
 
 /// Stable sort by key, digit by digit from the lowest: linear in the number of items. Only the
 /// lowest `key_bits` bits of the keys are in use. `scratch` is a buffer to be kept between calls.
-inline void radix_sort(
-    std::vector<KeyedIndex>& items, std::vector<KeyedIndex>& scratch, int key_bits) {
+template <class = void>
+void radix_sort(std::vector<KeyedIndex>& items, std::vector<KeyedIndex>& scratch, int key_bits) {
   constexpr int kMaxDigitBits = 12;
   constexpr std::size_t kMaxDigits = std::size_t{1} << kMaxDigitBits;
   const int passes = (key_bits + kMaxDigitBits - 1) / kMaxDigitBits;

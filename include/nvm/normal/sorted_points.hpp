@@ -27,6 +27,7 @@ struct SortedPoints {
     return axis == 0 ? x : axis == 1 ? y : z;
   }
 
+  template <class = void>
   void resize(std::size_t size) {
     index.resize(size);
     const std::size_t padded = (size + kPadding - 1) / kPadding * kPadding;

@@ -40,6 +40,7 @@ class SpatialSorter {
  public:
   /// The points whose status is kValid, by cubes of edge `edge` [m], in input order within a cube.
   /// Where 21 bits per axis do not reach, the cubes are coarser: slower, never wrong.
+  template <class = void>
   void sort(
       const LocalPoints& points,
       const std::vector<NormalStatus>& status,
@@ -80,6 +81,7 @@ class SpatialSorter {
     }
   };
 
+  template <class = void>
   void keep_valid(const std::vector<NormalStatus>& status) {
     order_.resize(status.size());
     std::size_t kept = 0;
@@ -90,6 +92,7 @@ class SpatialSorter {
     order_.resize(kept);
   }
 
+  template <class = void>
   Lattice lattice_over(const LocalPoints& points, double edge) const {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     float min[3] = {kInfinity, kInfinity, kInfinity};
@@ -114,6 +117,7 @@ class SpatialSorter {
         std::ilogb(extent / cube + 1.0) + 1};
   }
 
+  template <class = void>
   void gather(const LocalPoints& points, SortedPoints& sorted) const {
     sorted.resize(order_.size());
     for (std::size_t i = 0; i < order_.size(); ++i) {

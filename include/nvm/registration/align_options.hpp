@@ -44,7 +44,7 @@ enum class AlignStatus : std::uint8_t {
 /// Outcome of an alignment. All but the pose describe the last linearisation, made one step before
 /// `T_map_scan`.
 struct AlignResult {
-  Pose T_map_scan = Pose::Identity();
+  Pose T_map_scan = detail::identity();
   AlignStatus status = AlignStatus::kTooFewResiduals;
   int iterations = 0;
   AssociationCounts counts;

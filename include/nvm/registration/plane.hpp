@@ -28,7 +28,8 @@ struct Plane {
 
 /// The least-squares plane of `count` neighbours (PCA), or nothing when they do not span one: fewer
 /// than three, coincident or collinear points.
-inline std::optional<Plane> fit_plane(const Neighbor* neighbors, std::size_t count) {
+template <class = void>
+std::optional<Plane> fit_plane(const Neighbor* neighbors, std::size_t count) {
   if (count < 3) {
     return std::nullopt;
   }

@@ -37,6 +37,7 @@ struct Room {
 };
 
 /// What a voxel, as it is, makes of a point: the rules of spec §3.3 and §3.4. Changes nothing.
+template <class = void>
 class Admission {
  public:
   Admission(

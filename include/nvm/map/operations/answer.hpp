@@ -27,7 +27,10 @@ class Answer {
 
   /// Writes the first `count` candidates in the given order, and marks their voxels as used.
   [[gnu::always_inline]] void write(
-      const Candidates& found, const std::uint8_t* order, std::size_t count, Neighbor* out) const {
+      const Candidates<>& found,
+      const std::uint8_t* order,
+      std::size_t count,
+      Neighbor* out) const {
     for (std::size_t i = 0; i < count; ++i) {
       const PointId id = found.id(order[i]);
       const PointChunk& chunk = chunks_[id / kLanes];

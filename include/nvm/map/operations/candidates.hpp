@@ -18,6 +18,7 @@
 NVM_BEGIN_DETAIL_KERNELS
 
 /// The points that a query has found so far, in the order in which it met them, on the stack.
+template <class = void>
 class Candidates {
  public:
   static constexpr int kRoom = 256;

@@ -146,7 +146,8 @@ void erase_region(VoxelStorage& storage, const Lattice& lattice, const Region& r
       });
 }
 
-inline void erase_voxels_beyond(
+template <class = void>
+void erase_voxels_beyond(
     VoxelStorage& storage, const Lattice& lattice, const Eigen::Vector3d& center, double radius) {
   if (!all_finite(center) || !is_distance(radius)) {
     return;

@@ -40,7 +40,7 @@ std::size_t gated_nearest(
   const std::int32_t limit = lattice.sq_steps(max_distance) + 1;
   context.enter(storage, brick_index(point.voxel));
   const NearestQuery<Gate> query(storage, point, gate, context.is_new_place());
-  Candidates found(wanted);
+  Candidates<> found(wanted);
   for (std::int32_t reach = context.guess(wanted, limit);; reach = limit) {
     query.collect(context.brick(), reach, found);
     if (found.count() >= wanted || reach == limit) {

@@ -26,9 +26,10 @@ NVM_BEGIN_DETAIL_KERNELS
 
 /// Puts points into the storage by the rules of spec §3.3 to §3.5: which voxel, which of its
 /// surfaces, whether there is room, and what has to go to make room.
-class Insertion {
+template <class = void>
+class BasicInsertion {
  public:
-  Insertion(
+  BasicInsertion(
       const MapOptions& options,
       const Lattice& lattice,
       const NormalGate& gate,
@@ -217,7 +218,7 @@ class Insertion {
     const WrappedPoint point = block.wrapped(i);
     const LatticePoint place{
         block.voxel(i), {step_in_voxel(point.x), step_in_voxel(point.y), step_in_voxel(point.z)}};
-    Candidates found(1);
+    Candidates<> found(1);
     NearestQuery<Gate>(storage_, place, gate, false).collect(brick, min_sq_steps_, found);
     if (found.count() > 0 && merger_.is_on()) {
       found.keep_nearest();
@@ -255,15 +256,17 @@ class Insertion {
   const Lattice& lattice_;
   NormalGate gate_;
   std::int32_t min_sq_steps_;
-  Admission admission_;
+  Admission<> admission_;
   VoxelStorage& storage_;
   const PointChunk* chunks_;  // copied from it: behind a reference it would be read again and again
   VoxelCache& cache_;
-  PointMerger merger_;
+  PointMerger<> merger_;
   std::uint32_t number_;
   LookAhead look_ahead_;
   InsertStats stats_;
 };
+
+using Insertion = BasicInsertion<>;
 
 NVM_END_DETAIL_KERNELS
 

@@ -102,6 +102,7 @@ class MapEngine {
     return insert_blocks(static_cast<std::size_t>(points.size()), false, T_map_scan, fill);
   }
 
+  template <class = void>
   std::size_t nearest(const Eigen::Vector3f& normal, const NearestRequest& request) const noexcept {
     if (!is_unit(normal) && !nvm::is_sighting(normal)) {
       return 0;
@@ -110,6 +111,7 @@ class MapEngine {
     return request.search.gate == Gate::kPoints ? nearest_through(PointGate{gate}, request)
                                                 : nearest_through(gate, request);
   }
+  template <class = void>
   std::size_t nearest(const NearestRequest& request) const noexcept {
     return nearest_through(NoGate{}, request);
   }
@@ -130,12 +132,14 @@ class MapEngine {
     cache_.clear();
     return before - storage_.point_count();
   }
+  template <class = void>
   std::size_t erase_voxels_beyond(const Eigen::Vector3d& center, double radius) {
     const std::size_t before = storage_.point_count();
     detail::erase_voxels_beyond(storage_, lattice_, center, radius);
     cache_.clear();
     return before - storage_.point_count();
   }
+  template <class = void>
   void keep_within(const Eigen::Vector3d& center, double radius, InsertStats& stats) {
     const std::size_t voxels = storage_.voxel_count();
     stats.evicted_points += erase_voxels_beyond(center, radius);

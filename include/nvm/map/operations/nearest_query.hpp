@@ -54,7 +54,7 @@ class NearestQuery {
   /// Fills `found` with the points whose squared distance is below `limit`; of those only the
   /// wanted nearest need to be there. `brick` is the brick of the query's voxel, or kNone.
   [[gnu::always_inline]] void collect(
-      std::uint32_t brick, std::int32_t limit, Candidates& found) const noexcept {
+      std::uint32_t brick, std::int32_t limit, Candidates<>& found) const noexcept {
     found.clear();
     const AxisWindow& x = window(0, limit);
     const AxisWindow& y = window(1, limit);
@@ -97,7 +97,7 @@ class NearestQuery {
       const Brick& brick,
       std::uint64_t cells,
       std::int32_t& limit,
-      Candidates& found) const noexcept {
+      Candidates<>& found) const noexcept {
     cells &= brick.occupied;
     // The heads come in together, not one after the other's points.
     for (std::uint64_t left = is_cold_ ? cells : 0; left != 0; left &= left - 1) {
@@ -109,7 +109,7 @@ class NearestQuery {
   }
 
   [[gnu::always_inline]] void collect_voxel(
-      std::uint32_t head, std::int32_t& limit, Candidates& found) const noexcept {
+      std::uint32_t head, std::int32_t& limit, Candidates<>& found) const noexcept {
     for (; head != kNone; head = chunks_[head].next_surface) {
       const PointChunk& surface = chunks_[head];
       if (gate_.reads_surface(surface)) {
@@ -122,7 +122,7 @@ class NearestQuery {
       std::uint32_t head,
       const PointChunk& surface,
       std::int32_t& limit,
-      Candidates& found) const noexcept {
+      Candidates<>& found) const noexcept {
     const bool tests_points = gate_.tests_points(surface);
     for (std::uint32_t id = head; id != kNone; id = chunks_[id].next) {
       IntLanes distances;

@@ -17,6 +17,7 @@ NVM_BEGIN_DETAIL_KERNELS
 
 /// Moves stored points to the mean plane of the points that were too close to be stored beside them
 /// (MapOptions::max_merged_points). In integers, so that maps do not differ between processors.
+template <class = void>
 class PointMerger {
  public:
   PointMerger(const MapOptions& options, std::int32_t min_sq_steps, VoxelStorage& storage)

@@ -48,8 +48,8 @@ void for_each_voxel_near(
   if (bricks < 1.0) {
     return;
   }
-  const VoxelIndex first = per_axis([&](int axis) { return static_cast<std::int32_t>(low[axis]); });
-  const VoxelIndex last = per_axis([&](int axis) { return static_cast<std::int32_t>(high[axis]); });
+  const VoxelIndex first = truncated(low);
+  const VoxelIndex last = truncated(high);
   for (std::int32_t z = first.z(); z <= last.z(); ++z) {
     for (std::int32_t y = first.y(); y <= last.y(); ++y) {
       for (std::int32_t x = first.x(); x <= last.x(); ++x) {
@@ -77,7 +77,7 @@ inline WrappedPoint stored_point(const VoxelStorage& storage, PointId id) {
   return storage.chunk(id / kLanes).wrapped(id % kLanes);
 }
 
-inline Eigen::Vector3i stored_step(const VoxelStorage& storage, PointId id) {
+inline VoxelStep stored_step(const VoxelStorage& storage, PointId id) {
   const WrappedPoint point = stored_point(storage, id);
   return {step_in_voxel(point.x), step_in_voxel(point.y), step_in_voxel(point.z)};
 }

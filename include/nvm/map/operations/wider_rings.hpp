@@ -32,6 +32,7 @@ class NearestList {
  public:
   NearestList(Neighbor* out, std::size_t room) : out_(out), room_(room) {}
 
+  template <class = void>
   void show(const Neighbor& neighbor) noexcept {
     if (is_full() && !before(neighbor, out_[count_ - 1])) {
       return;
@@ -106,8 +107,9 @@ class WiderRings {
   }
 
   std::size_t collect(int ring) const noexcept {
-    const VoxelIndex low = per_axis([&](int axis) { return query_.voxel[axis] - ring; });
-    const VoxelIndex high = per_axis([&](int axis) { return query_.voxel[axis] + ring; });
+    const auto& [x, y, z] = query_.voxel.axes;
+    const VoxelIndex low{x - ring, y - ring, z - ring};
+    const VoxelIndex high{x + ring, y + ring, z + ring};
     const double max_distance = request_.search.max_distance;
     const double sq_limit = max_distance * max_distance;
     NearestList nearest(request_.out, wanted_);

@@ -38,6 +38,7 @@ class ByteWriter {
       bytes_.push_back(static_cast<std::uint8_t>(bits >> 8 * i));
     }
   }
+  template <class = void>
   void append(const std::vector<std::uint8_t>& bytes) {
     const std::size_t end = bytes_.size();
     bytes_.resize(end + bytes.size());
@@ -80,7 +81,8 @@ class ByteReader {
 };
 
 /// The CRC-32 of zip and PNG (polynomial 0xedb88320, reflected).
-inline std::uint32_t crc32(const std::uint8_t* bytes, std::size_t size) {
+template <class = void>
+std::uint32_t crc32(const std::uint8_t* bytes, std::size_t size) {
   static constexpr auto kTable = [] {
     std::array<std::uint32_t, 256> table{};
     for (std::uint32_t i = 0; i < 256; ++i) {

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
-#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -90,16 +89,34 @@ class ImageOutput {
   bool ok_ = true;
 };
 
-struct FileCloser {
-  void operator()(std::FILE* file) const noexcept { std::fclose(file); }
+/// Owns an open file. A std::unique_ptr would bring <memory> into every file that includes nvm.
+class File {
+ public:
+  explicit File(std::FILE* file) noexcept : file_(file) {}
+  File(File&& other) noexcept : file_(other.release()) {}
+  File& operator=(File&&) = delete;
+  ~File() {
+    if (file_ != nullptr) {
+      std::fclose(file_);
+    }
+  }
+
+  std::FILE* get() const noexcept { return file_; }
+  std::FILE* release() noexcept {
+    std::FILE* file = file_;
+    file_ = nullptr;
+    return file;
+  }
+
+ private:
+  std::FILE* file_;
 };
-using File = std::unique_ptr<std::FILE, FileCloser>;
 
 /// A file that is read, or mapped part by part where that can be done.
 class ImageFile {
  public:
   explicit ImageFile(const std::string& path) : file_(std::fopen(path.c_str(), "rb")) {
-    if (file_ == nullptr) {
+    if (file_.get() == nullptr) {
       throw std::runtime_error("cannot be opened");
     }
   }
@@ -112,6 +129,7 @@ class ImageFile {
     }
   }
   /// All of it, also where it has no size, as a pipe.
+  template <class = void>
   std::vector<std::uint8_t> contents() const {
     constexpr std::size_t kBlock = std::size_t{1} << 20;
     std::vector<std::uint8_t> bytes;

@@ -27,7 +27,10 @@ struct StateWriter {
   void number(const Number& value, std::size_t /*max*/) {
     numbers.push_back(static_cast<std::uint64_t>(value));
   }
-  void index(const std::uint32_t& value, std::size_t /*end*/) { numbers.push_back(value); }
+  template <class = void>
+  void index(const std::uint32_t& value, std::size_t /*end*/) {
+    numbers.push_back(value);
+  }
   void check(bool /*holds*/) const {}
   template <class Pointer>
   void array(const Pointer& array, std::size_t used, std::size_t /*capacity*/) {

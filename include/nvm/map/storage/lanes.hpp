@@ -107,6 +107,7 @@ struct LanePoint {
 
 #if defined(NVM_KERNEL_AVX2) && !defined(__AVX512VL__)
 /// Entry m: the set bits of m in ascending order, one byte each.
+template <class>
 inline constexpr auto kSetBits = [] {
   std::array<std::uint64_t, 256> table{};
   for (std::size_t mask = 0; mask < table.size(); ++mask) {
@@ -119,13 +120,15 @@ inline constexpr auto kSetBits = [] {
 }();
 
 /// The same, one lane each.
+template <class Unused = void>
 [[gnu::always_inline]] inline void set_bits(std::uint32_t mask, IntLanes& out) {
 #ifdef __clang__
   std::uint8_t __attribute__((vector_size(kLanes))) bits;
-  std::memcpy(&bits, &kSetBits[mask], sizeof(bits));
+  std::memcpy(&bits, &kSetBits<Unused>[mask], sizeof(bits));
   out = __builtin_convertvector(bits, IntLanes);
 #else  // GCC would unpack them one by one
-  const long long __attribute__((vector_size(16))) bits{static_cast<long long>(kSetBits[mask])};
+  const long long __attribute__((vector_size(16)))
+  bits{static_cast<long long>(kSetBits<Unused>[mask])};
   out = __builtin_ia32_pmovzxbd256(reinterpret_cast<char __attribute__((vector_size(16)))>(bits));
 #endif
 }
@@ -133,6 +136,7 @@ inline constexpr auto kSetBits = [] {
 
 /// Writes the lanes of `mask` to `out` without gaps. Writes up to kLanes elements, garbage behind
 /// the last.
+template <class = void>
 [[gnu::always_inline]] inline void compress(
     std::uint32_t mask, const IntLanes& values, std::int32_t* out) {
 #if defined(__AVX512VL__)

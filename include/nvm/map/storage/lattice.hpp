@@ -24,12 +24,37 @@ inline constexpr int kStepsPerVoxel = 1 << kStepBits;
 /// Voxel indices are floor(p / d) (Eq. 4) within [-2^20, 2^20).
 inline constexpr std::int32_t kMaxVoxelIndex = 1 << 20;
 
-using VoxelIndex = Eigen::Vector3i;
+/// One for each axis, of a voxel or of steps inside it. No Eigen::Vector3i, which is one more of
+/// Eigen's types for the compiler to make (coordinates.hpp).
+struct VoxelIndex {
+  std::int32_t axes[3];
+
+  VoxelIndex() = default;
+  VoxelIndex(std::int32_t x, std::int32_t y, std::int32_t z) noexcept : axes{x, y, z} {}
+
+  std::int32_t& operator[](int axis) noexcept { return axes[axis]; }
+  std::int32_t operator[](int axis) const noexcept { return axes[axis]; }
+  std::int32_t x() const noexcept { return axes[0]; }
+  std::int32_t y() const noexcept { return axes[1]; }
+  std::int32_t z() const noexcept { return axes[2]; }
+};
+using VoxelStep = VoxelIndex;
+
+inline bool operator==(const VoxelIndex& a, const VoxelIndex& b) noexcept {
+  return a.x() == b.x() && a.y() == b.y() && a.z() == b.z();
+}
+
+inline VoxelIndex truncated(const Eigen::Vector3d& v) noexcept {
+  return {
+      static_cast<std::int32_t>(v.x()),
+      static_cast<std::int32_t>(v.y()),
+      static_cast<std::int32_t>(v.z())};
+}
 
 /// A position on the lattice: the voxel, and the steps inside it, 0 to 2^13 - 1 per axis.
 struct LatticePoint {
   VoxelIndex voxel;
-  Eigen::Vector3i step;
+  VoxelStep step;
 };
 
 /// The coordinate of a point modulo 8 voxels, as stored.
@@ -92,7 +117,7 @@ class Lattice {
     });
   }
   /// The middle of a lattice cell [m].
-  Eigen::Vector3d position(const VoxelIndex& voxel, const Eigen::Vector3i& step) const noexcept {
+  Eigen::Vector3d position(const VoxelIndex& voxel, const VoxelStep& step) const noexcept {
     const Eigen::Vector3d middle = steps({voxel, step});
     return per_axis([&](int axis) { return middle[axis] * meters_per_step_; });
   }

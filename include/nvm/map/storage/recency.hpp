@@ -94,8 +94,7 @@ class Recency {
     }
   }
 
-  /// The epoch of a use now.
-  std::uint32_t epoch() const noexcept { return epoch_; }
+  std::uint32_t epoch() const noexcept { return epoch_; }  ///< of a use now
 
   /// Where a voxel stands, and when it was last used.
   struct Standing {
@@ -105,6 +104,7 @@ class Recency {
   };
 
   /// All voxels, from the oldest list to the newest, each list in order.
+  template <class = void>
   std::vector<Standing> standings() const {
     std::vector<Standing> standings;
     standings.reserve(count_);

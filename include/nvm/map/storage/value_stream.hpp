@@ -15,7 +15,8 @@ template <class Number>
 void put_value(Number value, ByteWriter& out) {
   out.put(value);
 }
-inline void put_value(const Color& color, ByteWriter& out) {
+template <class = void>
+void put_value(const Color& color, ByteWriter& out) {
   for (const std::uint8_t part : {color.red, color.green, color.blue}) {
     out.put(part);
   }
@@ -25,21 +26,24 @@ template <class Number>
 void get_value(ByteReader& in, Number& value) {
   value = in.get<Number>();
 }
-inline void get_value(ByteReader& in, Color& color) {
+template <class = void>
+void get_value(ByteReader& in, Color& color) {
   for (std::uint8_t* part : {&color.red, &color.green, &color.blue}) {
     *part = in.get<std::uint8_t>();
   }
 }
 
 /// The values of the columns that are kept, in the order of visit_columns().
-inline void write_values(const MapColumns& columns, const PointValues& values, ByteWriter& out) {
+template <class = void>
+void write_values(const MapColumns& columns, const PointValues& values, ByteWriter& out) {
   visit_columns([&](const OptionInfo&, auto kept, auto value) {
     if (columns.*kept) {
       put_value(values.*value, out);
     }
   });
 }
-inline PointValues read_values(const MapColumns& columns, ByteReader& in) {
+template <class = void>
+PointValues read_values(const MapColumns& columns, ByteReader& in) {
   PointValues values;
   visit_columns([&](const OptionInfo&, auto kept, auto value) {
     if (columns.*kept) {
