@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/interruption.hpp"
+#include "app/number_between.hpp"
 #include "app/say.hpp"
 #include "eval/report/evaluation.hpp"
 #include "eval/report/report.hpp"
@@ -131,19 +132,20 @@ void add_evaluate_command(CLI::App& app) {
       ->check(CLI::IsMember({"se3", "sim3", "none"}))
       ->capture_default_str();
   command->add_option("--regions", arguments->regions, "YAML file of boxes around walls");
-  command->add_option(
-      "--time-offset", arguments->time_offset, "Added to the times of the truth [s]");
+  command
+      ->add_option("--time-offset", arguments->time_offset, "Added to the times of the truth [s]")
+      ->check(number_between(-1e12, 1e12));
   command
       ->add_option(
           "--max-gap",
           arguments->options.max_gap,
           "Poses farther apart are not interpolated [s]; default: 0.25, or 1.5 usual steps up to "
           "1.5")
-      ->check(CLI::Range(0.0, 1e6));
+      ->check(number_between(0.0, 1e6));
   command
       ->add_option(
           "--margin", arguments->options.walls.points.margin, "Kept from the edges of walls [m]")
-      ->check(CLI::Range(0.0, 10.0))
+      ->check(number_between(0.0, 10.0))
       ->capture_default_str();
   command->callback([arguments] { evaluate(*arguments); });
 }

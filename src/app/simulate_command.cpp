@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/interruption.hpp"
+#include "app/number_between.hpp"
 #include "app/results.hpp"
 #include "config/schema.hpp"
 #include "io/file/doing.hpp"
@@ -105,7 +106,7 @@ void add_simulate_command(CLI::App& app) {
       })
       ->capture_default_str();
   command->add_option("--duration", arguments->duration, "[s]; 0: to the end of the route")
-      ->check(CLI::Range(0.0, 1e6))
+      ->check(number_between(0.0, 1e6))
       ->capture_default_str();
   command->add_option("--config", arguments->options_file, "YAML file of options")
       ->check(CLI::ExistingFile);

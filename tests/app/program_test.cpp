@@ -185,7 +185,9 @@ TEST_F(ProgramTest, WrongArgumentsGiveOneLine) {
   expect_failure(run("--fast"), "--fast");
   expect_failure(run("--config nowhere.yaml"), "nowhere.yaml");
   expect_failure("simulate wall6 --out " + path("out"), "no scene \"wall6\"");
-  expect_failure("simulate wall5 --duration -1 --out " + path("out"), "--duration");
+  for (const std::string duration : {"-1", "nan", "inf", "1e7", "long"}) {
+    expect_failure("simulate wall5 --duration " + duration + " --out " + path("out"), "--duration");
+  }
 }
 
 }  // namespace

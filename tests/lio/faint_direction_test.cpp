@@ -66,9 +66,9 @@ TEST(FaintDirection, IsSilentWhereMostScansTellEnough) {
   EXPECT_NE(finding_after(31, 29, Eigen::Matrix3d::Identity()), "");
 }
 
-TEST(FaintDirection, WaitsForFiftyScans) {
-  EXPECT_EQ(finding_after(49, 0, Eigen::Matrix3d::Identity()), "");
-  EXPECT_NE(finding_after(50, 0, Eigen::Matrix3d::Identity()), "");
+TEST(FaintDirection, WaitsForTenScans) {
+  EXPECT_EQ(finding_after(9, 0, Eigen::Matrix3d::Identity()), "");
+  EXPECT_NE(finding_after(10, 0, Eigen::Matrix3d::Identity()), "");
 }
 
 }  // namespace

@@ -71,7 +71,9 @@ TEST(ImperfectImu, OfARecordingThatBeginsInMotionJoinsTheScans) {
   recording.duration = 5.0;
   const Outcome outcome = run(recording);
   expect_tracks_from(0.55, recording, outcome);
-  EXPECT_THAT(outcome.findings, ::testing::IsEmpty());
+  EXPECT_THAT(
+      outcome.findings,
+      ::testing::ElementsAre(::testing::ContainsRegex("begins in motion: .* first 1\\.[3-9] s")));
 }
 
 TEST(ImperfectImu, ThatBeginsLaterJoinsTheScans) {
@@ -80,7 +82,9 @@ TEST(ImperfectImu, ThatBeginsLaterJoinsTheScans) {
   recording.imu_gap = {0.0, 2.2};
   const Outcome outcome = run(recording);
   expect_tracks_from(0.75, recording, outcome);
-  EXPECT_THAT(outcome.findings, ::testing::IsEmpty());
+  EXPECT_THAT(
+      outcome.findings,
+      ::testing::ElementsAre(::testing::ContainsRegex("begin later .* first 3\\.[0-9] s")));
 }
 
 TEST(ImperfectImu, OfTwentyReadingsPerSecondIsNoGap) {

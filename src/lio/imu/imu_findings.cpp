@@ -163,6 +163,14 @@ std::string clipping_finding(
       100.0 * axis.share);
 }
 
+std::string late_start_finding(double seconds, bool moved) {
+  return printed(
+      "%s: the poses of the first %.1f s are those of the scans alone, which are less exact%s",
+      moved ? "the recording begins in motion" : "the IMU's readings begin later than the scans",
+      seconds,
+      moved ? ". Let the sensor rest for a second at the start" : "");
+}
+
 std::string frozen_finding(
     const char* sensor, const char* unit, const ImuClipping::Axis& axis, double scale) {
   return printed(

@@ -48,6 +48,10 @@ std::string mirror_finding();
 /// `times` the scans alone went on, and do `still`.
 std::string contradiction_finding(std::size_t times, bool still);
 
+/// Of scans that were used alone for the first `seconds`, for the sensor `moved` or for want of
+/// readings.
+std::string late_start_finding(double seconds, bool moved);
+
 /// Of an axis that reads nothing but `axis.limit`; `scale` makes `unit` of it.
 std::string frozen_finding(
     const char* sensor, const char* unit, const ImuClipping::Axis& axis, double scale);

@@ -130,6 +130,7 @@ class InertialPipeline final : public Pipeline {
   bool is_imu_usable_ = true;
   double slid_time_ = -1e300;  ///< of the last scan alone that left directions open [s]
   double join_after_ = 1.0;    ///< so long must it tell the motion of the scans [s]
+  double joined_after_ = 0.0;  ///< by scans alone at the start [s]
   double left_time_ = -1e300;  ///< when the scans last went on without it [s]
   std::unique_ptr<ScanMatcher> matcher_;
   std::size_t min_first_keypoints_;  ///< of a scan that begins a map

@@ -167,6 +167,9 @@ void InertialPipeline::join_imu(const MotionFit& motion) {
   initial.state.T_body_lidar = options_.T_imu_lidar;
   initial.covariance.diagonal() += extrinsic_deviations().cwiseAbs2();
   imu_noise_ = noise_learner_.complete(options_.imu_noise, false);
+  if (!filter_) {
+    joined_after_ = motion_.last().time - *first_time_;
+  }
   filter_.emplace(initial.state, initial.covariance, imu_noise_);
   is_alone_ = false;
   believed_ = 0;
@@ -238,6 +241,9 @@ std::vector<std::string> InertialPipeline::findings() const {
     if (!line.empty()) {
       findings.push_back(line);
     }
+  }
+  if (findings.empty() && joined_after_ > 0.0) {
+    findings.push_back(late_start_finding(joined_after_, initializer_.is_hopeless()));
   }
   if (const std::string times = alone_.deskew_watch().finding(); !times.empty()) {
     findings.insert(findings.begin(), times);
