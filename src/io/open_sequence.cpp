@@ -93,13 +93,14 @@ std::string remedy(const std::string& path) {
 
 std::unique_ptr<SequenceReader> open_folder(
     const std::string& path, const SequenceOptions& options) {
+  const bool has_point_times = options.point_time_field != "none";
   if (is_nvm_sequence(path)) {
-    return open_nvm_sequence(path);
+    return open_nvm_sequence(path, has_point_times);
   }
   const std::filesystem::path folder =
       std::filesystem::absolute(path + "/").lexically_normal().parent_path();
   if (folder.filename() == "scans" && is_nvm_sequence(folder.parent_path().string())) {
-    return open_nvm_sequence(folder.parent_path().string());
+    return open_nvm_sequence(folder.parent_path().string(), has_point_times);
   }
   const auto bags = bags_in(path);
   return bags.empty() ? open_scan_folder(path, options) : open_ros_bags(bags, options);

@@ -73,7 +73,8 @@ TEST(ImperfectImu, OfARecordingThatBeginsInMotionJoinsTheScans) {
   expect_tracks_from(0.55, recording, outcome);
   EXPECT_THAT(
       outcome.findings,
-      ::testing::ElementsAre(::testing::ContainsRegex("begins in motion: .* first [12]\\.[0-9] s")));
+      ::testing::ElementsAre(
+          ::testing::ContainsRegex("begins in motion: .* first [12]\\.[0-9] s")));
 }
 
 TEST(ImperfectImu, ThatBeginsLaterJoinsTheScans) {

@@ -12,7 +12,7 @@
 namespace nvm::io {
 
 std::vector<std::string_view> split(std::string_view line) {
-  constexpr std::string_view kSeparators = " \t\r\n,";
+  constexpr std::string_view kSeparators = " \t\r\n,;";
   std::vector<std::string_view> words;
   std::size_t begin = line.find_first_not_of(kSeparators);
   while (begin != std::string_view::npos) {
@@ -33,8 +33,11 @@ std::optional<std::size_t> parse_whole_number(std::string_view word) {
 LineReader::LineReader(const std::string& path) : path_(path), file_(open_to_read(path)) {}
 
 std::optional<std::vector<std::string_view>> LineReader::next() {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // of spreadsheets
   while (std::getline(file_, line_)) {
-    ++line_number_;
+    if (line_number_++ == 0 && line_.rfind(kByteOrderMark, 0) == 0) {
+      line_.erase(0, kByteOrderMark.size());
+    }
     auto words = split(std::string_view(line_).substr(0, line_.find('#')));
     if (!words.empty()) {
       return words;

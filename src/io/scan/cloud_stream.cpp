@@ -10,8 +10,6 @@ namespace nvm::io {
 
 void CloudStream::check(const CloudMessage& cloud, double time) {
   constexpr double kGone = 1.0;  // a frame that has not come for so long has a new name [s]
-  // Else nothing moves, and nothing is noisy, as in a simulator.
-  constexpr std::size_t kMinChanges = 3, kMaxRepeats = 5;
   if (cloud.frame != frame_ && time - time_ < kGone) {
     throw std::runtime_error(fmt::format(
         "is of frame '{}', not '{}' as those before: two LiDARs on one topic; record a topic for "
@@ -21,13 +19,9 @@ void CloudStream::check(const CloudMessage& cloud, double time) {
   }
   frame_ = cloud.frame;
   time_ = time;
-  const bool is_repeat = !cloud.records.bytes.empty() && cloud.records.bytes == points_;
-  repeats_ = is_repeat ? repeats_ + 1 : 0;
-  changes_ += is_repeat || points_.empty() ? 0 : 1;
-  if (is_repeat && repeats_ <= kMaxRepeats && changes_ >= kMinChanges) {
+  if (repeats_.is_repeat(cloud.records.bytes)) {
     throw std::runtime_error("has the points of the cloud before, with another stamp");
   }
-  points_ = cloud.records.bytes;
 }
 
 }  // namespace nvm::io

@@ -2,10 +2,10 @@
 // Copyright (c) 2026 The nvm authors
 #pragma once
 
-#include <cstddef>
 #include <limits>
 #include <string>
 
+#include "io/scan/repeat_watch.hpp"
 #include "io/scan/scan_converter.hpp"
 
 namespace nvm::io {
@@ -21,9 +21,7 @@ class CloudStream {
  private:
   std::string frame_;
   double time_ = -std::numeric_limits<double>::infinity();  ///< of its last cloud [s]
-  std::string points_;                                      ///< of the cloud before
-  std::size_t repeats_ = 0;                                 ///< on end
-  std::size_t changes_ = 0;                                 ///< of the points, in all
+  RepeatWatch repeats_;
 };
 
 }  // namespace nvm::io

@@ -5,10 +5,44 @@
 #include <algorithm>
 #include <array>
 #include <stdexcept>
+#include <utility>
+
+#include "common/median.hpp"
+#include "io/sequence/time_unit.hpp"
 
 namespace nvm::io {
 
-ImuFile::ImuFile(const std::string& path) : rows_(path, {"t", "gx", "gy", "gz", "ax", "ay", "az"}) {
+namespace {
+
+/// By the steps between the first rows.
+double imu_time_unit(const std::string& path) {
+  constexpr std::size_t kRows = 200;
+  constexpr double kLongestStep = 0.3;  // [s]
+  CsvReader rows(path, {"t"});
+  std::vector<double> steps;
+  std::optional<double> previous;
+  for (std::size_t i = 0; i < kRows; ++i) {
+    try {
+      const auto cells = rows.next();
+      if (!cells) {
+        break;
+      }
+      const double time = rows.line().number(cells->front());
+      if (previous && time > *previous) {
+        steps.push_back(time - *previous);
+      }
+      previous = time;
+    } catch (const std::runtime_error&) {
+      continue;  // ImuFile counts it
+    }
+  }
+  return steps.empty() ? 1.0 : time_unit(median(std::move(steps)), kLongestStep);
+}
+
+}  // namespace
+
+ImuFile::ImuFile(const std::string& path)
+    : unit_(imu_time_unit(path)), rows_(path, {"t", "gx", "gy", "gz", "ax", "ay", "az"}) {
   advance();
 }
 
@@ -43,7 +77,7 @@ std::optional<ImuSample> ImuFile::read_row() {
     values[i] = rows_.line().number((*cells)[i]);
   }
   const ImuSample sample = {
-      values[0], {values[1], values[2], values[3]}, {values[4], values[5], values[6]}};
+      values[0] * unit_, {values[1], values[2], values[3]}, {values[4], values[5], values[6]}};
   if (const auto problem = problem_of(sample)) {
     rows_.line().fail(*problem);
   }

@@ -14,7 +14,8 @@
 
 namespace nvm::io {
 
-/// The samples of an imu.csv (t,gx,gy,gz,ax,ay,az in s, rad/s, m/s^2) in order of time. Rows that
+/// The samples of an imu.csv (t,gx,gy,gz,ax,ay,az in s, rad/s, m/s^2) in order of time. Times may
+/// be in another unit, which their steps tell (time_unit.hpp). Rows that
 /// are no sample (not seven finite numbers, absurd ones, a time that repeats or goes back) are left
 /// out. Throws std::runtime_error, naming the file, when it lacks a column.
 class ImuFile {
@@ -23,6 +24,9 @@ class ImuFile {
 
   /// The samples not yet handed out with time <= `time`.
   std::vector<ImuSample> until(double time);
+
+  /// Of the times in the file [s].
+  double unit() const { return unit_; }
 
   /// The gaps among the samples handed out.
   const ImuGapMonitor& gaps() const { return gaps_; }
@@ -34,6 +38,7 @@ class ImuFile {
   void advance();
   std::optional<ImuSample> read_row();
 
+  double unit_;
   CsvReader rows_;
   std::optional<ImuSample> next_;
   ImuGapMonitor gaps_;

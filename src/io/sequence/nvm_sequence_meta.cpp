@@ -47,8 +47,6 @@ NvmSequenceMeta read_nvm_sequence_meta(const std::string& path) {
     if (!json.is_object()) {
       throw std::invalid_argument("is no JSON object");
     }
-    const auto format = json.find("format");
-    meta.is_by_nvm = format != json.end() && *format == "nvm sequence";
     if (json.contains("T_imu_lidar")) {
       meta.T_imu_lidar = pose_from(json.at("T_imu_lidar"));
     }

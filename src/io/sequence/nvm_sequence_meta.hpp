@@ -12,7 +12,6 @@ namespace nvm::io {
 
 /// What reading an nvm sequence needs of its meta.json.
 struct NvmSequenceMeta {
-  bool is_by_nvm = false;             ///< "format" is "nvm sequence"
   std::optional<Pose> T_imu_lidar;    ///< "T_imu_lidar"
   std::optional<std::size_t> scans;   ///< "counts.scans"
   std::optional<std::size_t> points;  ///< "counts.points"

@@ -4,17 +4,24 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <filesystem>
 #include <limits>
+#include <stdexcept>
+#include <utility>
 
+#include "common/median.hpp"
 #include "io/file/csv_reader.hpp"
 #include "io/file/file.hpp"
 #include "io/file/stays_below.hpp"
+#include "io/scan/repeat_watch.hpp"
 #include "io/sequence/imu_file.hpp"
+#include "io/sequence/left_out.hpp"
 #include "io/sequence/nvm_sequence_meta.hpp"
+#include "io/sequence/time_unit.hpp"
 
 namespace nvm::io {
 namespace {
@@ -26,105 +33,143 @@ constexpr std::size_t kRecordSize = 24;
 static_assert(sizeof(TimedPoint) == kRecordSize && offsetof(TimedPoint, ring) == 20);
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__);
 
-constexpr double kNever = -std::numeric_limits<double>::infinity();
-
 struct ScanEntry {
   std::string path;
   double t_begin = 0.0;
   double t_end = 0.0;
 };
 
-std::vector<ScanEntry> read_scan_list(const std::string& folder) {
+/// The row of one scan; nothing at the end. Throws std::runtime_error for a bad row.
+std::optional<ScanEntry> read_scan_row(CsvReader& rows, const std::string& folder) {
+  const auto cells = rows.next();
+  if (!cells) {
+    return std::nullopt;
+  }
+  const ScanEntry entry{
+      (fs::path(folder) / (*cells)[3]).string(),
+      rows.line().number((*cells)[1]),
+      rows.line().number((*cells)[2])};
+  if (entry.t_end < entry.t_begin) {
+    rows.line().fail("t_end is below t_begin");
+  }
+  if (!stays_below(std::string((*cells)[3]))) {
+    rows.line().fail("the file " + quote((*cells)[3]) + " is outside of the folder");
+  }
+  return entry;
+}
+
+/// As they stand in scans.csv, bad rows aside.
+std::vector<ScanEntry> read_scan_list(const std::string& folder, LeftOut& bad_rows) {
   CsvReader rows(folder + "/scans.csv", {"index", "t_begin", "t_end", "file"});
   std::vector<ScanEntry> scans;
-  double previous = kNever;
-  while (const auto cells = rows.next()) {
-    const double t_begin = rows.line().number((*cells)[1]);
-    const double t_end = rows.line().number((*cells)[2]);
-    if (t_begin <= previous) {
-      rows.line().fail("t_begin is not above that of the scan before");
+  while (true) {
+    try {
+      auto entry = read_scan_row(rows, folder);
+      if (!entry) {
+        return scans;
+      }
+      scans.push_back(std::move(*entry));
+    } catch (const std::runtime_error& error) {
+      bad_rows.add(error.what());
     }
-    if (t_end < t_begin) {
-      rows.line().fail("t_end is below t_begin");
-    }
-    const std::string file((*cells)[3]);
-    if (!stays_below(file)) {
-      rows.line().fail("the file " + quote(file) + " is outside of the folder");
-    }
-    previous = t_begin;
-    scans.push_back({(fs::path(folder) / file).string(), t_begin, t_end});
   }
-  return scans;
 }
 
-/// The number of points in a scan file of `size` bytes.
-std::size_t point_count(const std::string& path, std::size_t size) {
-  if (size % kRecordSize != 0) {
-    fail(
-        path,
-        std::to_string(size) +
-            " bytes are no whole number of 24-byte points: truncated, or another layout");
+/// By how long the scans last, or the steps between them.
+double scan_time_unit(const std::vector<ScanEntry>& scans) {
+  constexpr double kLongestScan = 10.0;    // [s]
+  constexpr double kLongestStep = 1000.0;  // of a scanner that is carried from place to place [s]
+  std::vector<double> durations, steps;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    durations.push_back(scans[i].t_end - scans[i].t_begin);
+    steps.push_back(i == 0 ? 0.0 : std::abs(scans[i].t_begin - scans[i - 1].t_begin));
   }
-  return size / kRecordSize;
+  if (scans.empty()) {
+    return 1.0;
+  }
+  const double duration = median(std::move(durations));
+  return duration > 0.0 ? time_unit(duration, kLongestScan)
+                        : time_unit(median(std::move(steps)), kLongestStep);
 }
 
+/// The points of the whole files.
 std::size_t point_count(const std::vector<ScanEntry>& scans) {
   std::size_t points = 0;
   for (const ScanEntry& scan : scans) {
     std::error_code error;
     const std::size_t size = fs::file_size(scan.path, error);
-    if (error) {
-      fail(scan.path, "is missing: " + error.message());
-    }
-    points += point_count(scan.path, size);
+    points += error || size % kRecordSize != 0 ? 0 : size / kRecordSize;
   }
   return points;
 }
 
-Scan read_scan(const ScanEntry& entry) {
-  const std::string bytes = read_file(entry.path);
-  Scan scan{entry.t_begin, entry.t_end, {}};
-  scan.points.resize(point_count(entry.path, bytes.size()));
-  if (!bytes.empty()) {
-    std::memcpy(static_cast<void*>(scan.points.data()), bytes.data(), bytes.size());
+std::vector<TimedPoint> points_of(const std::string& path, const std::string& bytes) {
+  if (bytes.size() % kRecordSize != 0) {
+    fail(
+        path,
+        std::to_string(bytes.size()) +
+            " bytes are no whole number of 24-byte points: truncated, or another layout");
   }
-  return scan;
+  std::vector<TimedPoint> points(bytes.size() / kRecordSize);
+  if (!bytes.empty()) {
+    std::memcpy(static_cast<void*>(points.data()), bytes.data(), bytes.size());
+  }
+  return points;
 }
 
-/// Throws std::runtime_error unless the points are finite, in order of time and within the scan.
-void check_points(const ScanEntry& entry, const Scan& scan) {
+/// Throws std::runtime_error unless the points are in order of time and within the scan.
+void check_times(const std::string& path, const Scan& scan) {
   constexpr double kSlack = 1e-3;
   const double duration = scan.t_end - scan.t_begin;
   double previous = -kSlack;
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
-    const TimedPoint& point = scan.points[i];
+    const float dt = scan.points[i].dt;
     const auto fail_here = [&](const std::string& problem) {
-      fail(entry.path, "point " + std::to_string(i) + ": " + problem);
+      fail(path, "point " + std::to_string(i) + ": " + problem);
     };
-    if (!std::isfinite(point.x + point.y + point.z)) {
-      fail_here("a coordinate is not a finite number");
-    }
-    if (!(point.dt >= previous)) {
+    if (!(dt >= previous)) {
       fail_here("dt is below that of the point before: unsorted, or another layout");
     }
-    if (!(point.dt <= duration + kSlack)) {
+    if (!(dt <= duration + kSlack)) {
       fail_here("dt is after the scan's t_end");
     }
-    previous = point.dt;
+    previous = dt;
   }
+}
+
+/// All points are as of the begin.
+void forget_times(Scan& scan) {
+  scan.t_end = scan.t_begin;
+  for (TimedPoint& point : scan.points) {
+    point.dt = 0.0F;
+  }
+}
+
+/// Directions without return are often not-a-number.
+void drop_no_returns(std::vector<TimedPoint>& points) {
+  const auto is_nothing = [](const TimedPoint& point) {
+    return !std::isfinite(point.x + point.y + point.z);
+  };
+  points.erase(std::remove_if(points.begin(), points.end(), is_nothing), points.end());
 }
 
 class NvmSequence : public SequenceReader {
  public:
-  explicit NvmSequence(const std::string& folder) : scans_(read_scan_list(folder)) {
+  NvmSequence(const std::string& folder, bool has_point_times)
+      : path_(folder), scans_(read_scan_list(folder, bad_rows_)) {
     info_.format = "nvm sequence";
+    info_.has_point_times = has_point_times;
+    bring_in_order();
     info_.scan_count = scans_.size();
-    info_.has_point_times = true;
-    const std::string meta = folder + "/meta.json";
-    apply(read_nvm_sequence_meta(meta), meta);
+    if (fs::exists(folder + "/meta.json")) {
+      apply(read_nvm_sequence_meta(folder + "/meta.json"));
+    } else {
+      info_.notes.emplace_back("there is no meta.json, which would tell T_imu_lidar");
+    }
     info_.has_imu = fs::exists(folder + "/imu.csv");
     if (info_.has_imu) {
       imu_.emplace(folder + "/imu.csv");
+      note_unit("imu.csv", imu_->unit());
     } else {
       info_.notes.emplace_back("there is no imu.csv: the sequence is read without IMU");
     }
@@ -134,13 +179,18 @@ class NvmSequence : public SequenceReader {
   const SequenceInfo& info() const override { return info_; }
 
   std::optional<Scan> next_scan() override {
-    if (next_ == scans_.size()) {
-      return std::nullopt;
+    while (next_ < scans_.size()) {
+      try {
+        return read_scan(scans_[next_++]);
+      } catch (const std::runtime_error& error) {
+        bad_scans_.add(error.what());
+        renew_notes();
+      }
     }
-    const ScanEntry& entry = scans_[next_++];
-    Scan scan = read_scan(entry);
-    check_points(entry, scan);
-    return scan;
+    if (bad_scans_.count() == scans_.size()) {
+      fail(path_, "no scan can be read: " + bad_scans_.note().value_or("scans.csv has none"));
+    }
+    return std::nullopt;
   }
 
   std::vector<ImuSample> imu_until(double time) override {
@@ -148,50 +198,103 @@ class NvmSequence : public SequenceReader {
       return {};
     }
     auto samples = imu_->until(time);
-    info_.notes.resize(fixed_notes_);
     info_.skipped_imu_samples = imu_->bad_rows().count();
-    for (const auto& note : {imu_->bad_rows().note(), imu_->gaps().summary()}) {
-      if (note) {
-        info_.notes.push_back(*note);
-      }
-    }
+    renew_notes();
     return samples;
   }
 
  private:
-  void apply(const NvmSequenceMeta& meta, const std::string& path) {
+  void bring_in_order() {
+    const double unit = scan_time_unit(scans_);
+    note_unit("scans.csv", unit);
+    for (ScanEntry& scan : scans_) {
+      scan.t_begin *= unit;
+      scan.t_end *= unit;
+    }
+    const auto is_earlier = [](const ScanEntry& a, const ScanEntry& b) {
+      return a.t_begin < b.t_begin;
+    };
+    if (!std::is_sorted(scans_.begin(), scans_.end(), is_earlier)) {
+      info_.notes.emplace_back("scans.csv is not in order of time: the scans are taken in it");
+      std::stable_sort(scans_.begin(), scans_.end(), is_earlier);
+    }
+    if (bad_rows_.count() > 0) {
+      info_.notes.push_back(*bad_rows_.note());
+    }
+  }
+
+  void note_unit(const std::string& file, double unit) {
+    if (unit != 1.0) {
+      info_.notes.push_back(time_unit_note(file, unit));
+    }
+  }
+
+  void apply(const NvmSequenceMeta& meta) {
     if (meta.T_imu_lidar) {
       info_.T_imu_lidar = *meta.T_imu_lidar;
       info_.has_T_imu_lidar = true;
     }
     const std::size_t points = point_count(scans_);
-    if (meta.scans.value_or(scans_.size()) == scans_.size() &&
-        meta.points.value_or(points) == points) {
-      return;
+    if (meta.scans.value_or(scans_.size()) != scans_.size() ||
+        meta.points.value_or(points) != points) {
+      info_.notes.push_back(fmt::format(
+          "meta.json: \"counts\" differs from the {} scans with {} points that are there: a "
+          "file is cut or lost",
+          scans_.size(),
+          points));
     }
-    const std::string problem = fmt::format(
-        "\"counts\" differs from the {} scans with {} points that are there: a file is cut or lost",
-        scans_.size(),
-        points);
-    if (meta.is_by_nvm) {  // others may count differently
-      fail(path, problem);
-    }
-    info_.notes.push_back("meta.json: " + problem);
   }
 
+  Scan read_scan(const ScanEntry& entry) {
+    if (entry.t_begin <= previous_) {
+      fail(entry.path, "begins when the scan before it does");
+    }
+    const std::string bytes = read_file(entry.path);
+    if (repeats_.is_repeat(bytes)) {
+      fail(entry.path, "has the points of the scan before");
+    }
+    Scan scan{entry.t_begin, entry.t_end, points_of(entry.path, bytes)};
+    check_times(entry.path, scan);
+    drop_no_returns(scan.points);
+    if (!info_.has_point_times) {
+      forget_times(scan);
+    }
+    previous_ = entry.t_begin;
+    return scan;
+  }
+
+  void renew_notes() {
+    info_.notes.resize(fixed_notes_);
+    std::vector<std::optional<std::string>> notes = {bad_scans_.note()};
+    if (imu_) {
+      notes.push_back(imu_->bad_rows().note());
+      notes.push_back(imu_->gaps().summary());
+    }
+    for (const auto& note : notes) {
+      if (note) {
+        info_.notes.push_back(*note);
+      }
+    }
+  }
+
+  std::string path_;
+  LeftOut bad_rows_{"rows of scans.csv are"};
   std::vector<ScanEntry> scans_;
   SequenceInfo info_;
   std::optional<ImuFile> imu_;
+  RepeatWatch repeats_;
+  LeftOut bad_scans_{"scans are"};
   std::size_t next_ = 0;
-  std::size_t fixed_notes_ = 0;  ///< the notes before the one about IMU gaps
+  double previous_ = -std::numeric_limits<double>::infinity();  ///< begin of the last scan [s]
+  std::size_t fixed_notes_ = 0;  ///< the notes before those that change while reading
 };
 
 }  // namespace
 
 bool is_nvm_sequence(const std::string& folder) { return fs::exists(folder + "/scans.csv"); }
 
-std::unique_ptr<SequenceReader> open_nvm_sequence(const std::string& folder) {
-  return std::make_unique<NvmSequence>(folder);
+std::unique_ptr<SequenceReader> open_nvm_sequence(const std::string& folder, bool has_point_times) {
+  return std::make_unique<NvmSequence>(folder, has_point_times);
 }
 
 }  // namespace nvm::io

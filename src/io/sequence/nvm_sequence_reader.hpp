@@ -12,10 +12,13 @@ namespace nvm::io {
 /// Whether `folder` holds the list of scans of an nvm sequence.
 bool is_nvm_sequence(const std::string& folder);
 
-/// Opens an nvm sequence folder (docs/formats.md). Reading is strict: std::runtime_error names the
-/// file and the line or point for a missing or truncated file, another layout, a time that repeats
-/// or goes back, points out of order, numbers that are not finite, and a scan outside of the
-/// folder. Bad rows and gaps of imu.csv, a missing imu.csv and a missing T_imu_lidar become notes.
-std::unique_ptr<SequenceReader> open_nvm_sequence(const std::string& folder);
+/// Opens an nvm sequence folder (docs/formats.md). Bad rows of scans.csv and imu.csv, scans that
+/// are missing, truncated, out of order, outside of the folder or those before again, other counts
+/// than meta.json has, times in another unit and what is missing become notes. Throws
+/// std::runtime_error for a bad meta.json, a table without its columns, and when no scan is left.
+/// Of scans that have been deskewed the times of the points mean nothing: without
+/// `has_point_times` all are as of t_begin.
+std::unique_ptr<SequenceReader> open_nvm_sequence(
+    const std::string& folder, bool has_point_times = true);
 
 }  // namespace nvm::io

@@ -5,11 +5,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <limits>
 #include <set>
 #include <stdexcept>
 
 #include "io/file/file.hpp"
+#include "io/scan/repeat_watch.hpp"
 #include "io/scan/scan_converter.hpp"
 #include "io/sequence/left_out.hpp"
 #include "io/sequence/scan_files.hpp"
@@ -34,6 +36,10 @@ class ScanFolder : public SequenceReader {
     learn_times();
     info_.format = "folder of " + extension_of(scans_.front().path.string()) + " scans";
     info_.scan_count = scans_.size();
+    if (std::filesystem::exists(path + "/imu.csv")) {
+      info_.notes.emplace_back(
+          "imu.csv is not read: it belongs to an nvm sequence, whose scans.csv is missing");
+    }
     fixed_notes_ = info_.notes.size();
   }
 
@@ -98,7 +104,11 @@ class ScanFolder : public SequenceReader {
   }
 
   Scan read_scan(const ScanFile& file) {
-    Scan scan = converter_.convert(read(file), file.time);
+    const PointRecords records = read(file);
+    if (repeats_.is_repeat(records.bytes)) {
+      fail(file.path.string(), "has the points of the scan before");
+    }
+    Scan scan = converter_.convert(records, file.time);
     if (scan.t_begin <= previous_time_) {
       fail(file.path.string(), "begins no later than the scan before it");
     }
@@ -129,6 +139,7 @@ class ScanFolder : public SequenceReader {
   std::size_t bin_fields_;
   std::vector<ScanFile> scans_;
   ScanConverter converter_;
+  RepeatWatch repeats_;
   LeftOut bad_scans_{"scans are"};
   mutable std::set<std::string> cut_files_;
   std::size_t fixed_notes_ = 0;  ///< the notes before those that change while reading

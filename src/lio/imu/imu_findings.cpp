@@ -171,6 +171,13 @@ std::string late_start_finding(double seconds, bool moved) {
       moved ? ". Let the sensor rest for a second at the start" : "");
 }
 
+std::string early_end_finding(double seconds) {
+  return printed(
+      "the IMU's readings end %.1f s before the scans: from there the poses rest on the scans "
+      "alone, and are less exact",
+      seconds);
+}
+
 std::string frozen_finding(
     const char* sensor, const char* unit, const ImuClipping::Axis& axis, double scale) {
   return printed(

@@ -52,6 +52,9 @@ std::string contradiction_finding(std::size_t times, bool still);
 /// readings.
 std::string late_start_finding(double seconds, bool moved);
 
+/// Of readings that end `seconds` before the scans do.
+std::string early_end_finding(double seconds);
+
 /// Of an axis that reads nothing but `axis.limit`; `scale` makes `unit` of it.
 std::string frozen_finding(
     const char* sensor, const char* unit, const ImuClipping::Axis& axis, double scale);

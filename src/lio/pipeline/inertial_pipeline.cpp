@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lio/map/map_agreement.hpp"
 #include "lio/match/aligned_matcher.hpp"
 #include "lio/pipeline/pose_covariance.hpp"
 #include "lio/pipeline/stage_timer.hpp"
@@ -78,6 +77,11 @@ FrameResult InertialPipeline::process(const Scan& scan) {
     return result;
   }
   is_scan_alone_ = false;
+  if (hangs(scan)) {
+    result.status = FrameStatus::kSkipped;
+    result.message = "the LiDAR hangs: it sends the points of the scan before while the IMU moves";
+    return result;
+  }
   prepare(scan, result);
   if (!is_rigid(filter_->state().T_world_body)) {  // no reading may end a run
     go_alone(motion_);
@@ -85,7 +89,13 @@ FrameResult InertialPipeline::process(const Scan& scan) {
   }
   const ConstantVelocity motion = motion_;
   match(result);
-  if (is_led_astray(scan, motion, result)) {
+  const std::optional<Pose> elsewhere = led_astray_from(scan, motion, result);
+  if (is_leap(elsewhere.value_or(filter_->state().T_world_lidar()))) {
+    *filter_ = *sure_prediction_;
+    motion_ = motion;
+    result.status = FrameStatus::kWeak;
+    result.message = "the scan lies where nothing can have moved it";
+  } else if (elsewhere) {
     leave_imu(motion);
     return process_alone(scan);
   }
@@ -191,7 +201,10 @@ void InertialPipeline::match(FrameResult& result) {
   }
   const ErrorStateFilter predicted = *filter_;
   const bool was_sure = is_sure();
-  if (!was_sure) {
+  if (was_sure) {
+    sure_prediction_ = predicted;
+  } else {
+    sure_prediction_.reset();
     find_again();
   }
   const MatchResult match = matcher_->match(*map_, prepared_, *filter_);
@@ -262,17 +275,6 @@ bool InertialPipeline::is_adrift(const UnobservedDirections& unobserved) const {
          std::any_of(rotations.begin(), rotations.end(), [&](const auto& axis) {
            return is_open(kRotation, axis, kMaxTurnDoubt);
          });
-}
-
-// Of a sure pose few keypoints may fit, as long as the others lie where the map ends.
-bool InertialPipeline::agrees_with_map(const MatchResult& match) const {
-  constexpr double kMostly = 0.8;
-  if (match.inlier_share >= options_.min_inlier_share) {
-    return match.residual_share >= options_.min_inlier_share;
-  }
-  return match.residual_share >= kMostly &&
-         judge_agreement(*map_, key_points_, key_normals_, filter_->state().T_world_lidar())
-                 .share() >= options_.min_inlier_share;
 }
 
 // The map's voxels reach no farther than their size, a coarse map's do.

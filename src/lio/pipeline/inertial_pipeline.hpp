@@ -90,7 +90,10 @@ class InertialPipeline final : public Pipeline {
   bool is_to_go_alone(double time);
   void go_alone(const ConstantVelocity& motion);
   FrameResult process_alone(const Scan& scan);
-  bool is_led_astray(const Scan& scan, const ConstantVelocity& motion, const FrameResult& result);
+  std::optional<Pose> led_astray_from(
+      const Scan& scan, const ConstantVelocity& motion, const FrameResult& result);
+  bool hangs(const Scan& scan);
+  bool is_leap(const Pose& T_map_lidar);
   double distance_from_map(const DeskewedScan& scan, const Pose& T_map_lidar) const;
   void leave_imu(const ConstantVelocity& motion);
   void join_imu(const MotionFit& motion);
@@ -136,15 +139,18 @@ class InertialPipeline final : public Pipeline {
   std::size_t min_first_keypoints_;  ///< of a scan that begins a map
   std::optional<Pose> start_;        ///< T_map_body in a map that others have begun
   std::optional<ErrorStateFilter> filter_;
-  double imu_time_offset_;                  ///< that is added to the times of readings [s]
-  double read_until_ = -1e300;              ///< time of the last reading taken [s]
-  ImuNoise imu_noise_;                      ///< that the filter works with
-  std::optional<double> first_time_;        ///< of a scan [s]
-  ConstantVelocity motion_{StampedPose()};  ///< of the body, by the frames believed
-  double believed_doubt_ = 0.0;             ///< of its place [m]
-  std::optional<double> placed_time_;       ///< of the last that told its place [s]
-  std::size_t believed_ = 0;                ///< frames since the IMU joined
-  std::size_t contradictions_ = 0;          ///< that made it go on without the IMU
+  std::optional<ErrorStateFilter> sure_prediction_;  ///< of the last scan
+  std::size_t leaps_ = 0;                            ///< of scans away from it, on end
+  double imu_time_offset_;                           ///< that is added to the times of readings [s]
+  double read_until_ = -1e300;                       ///< time of the last reading taken [s]
+  ImuNoise imu_noise_;                               ///< that the filter works with
+  std::optional<double> first_time_;                 ///< of a scan [s]
+  ConstantVelocity motion_{StampedPose()};           ///< of the body, by the frames believed
+  double believed_doubt_ = 0.0;                      ///< of its place [m]
+  std::optional<double> placed_time_;                ///< of the last that told its place [s]
+  std::size_t believed_ = 0;                         ///< frames since the IMU joined
+  std::size_t contradictions_ = 0;                   ///< that made it go on without the IMU
+  std::vector<Eigen::Vector3f> last_print_;          ///< some of the points of the last scan
   // Kept for their memory.
   std::deque<ImuSample> unread_;  ///< by the initializer
   std::vector<ImuSample> samples_;

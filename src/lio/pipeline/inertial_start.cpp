@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The nvm authors
 //
-// How the IMU joins the scans, and leaves them: the other half of InertialPipeline.
+// How the IMU joins the scans, and leaves them: a part of InertialPipeline.
 #include <algorithm>
 #include <string>
 #include <vector>
 
 #include "lio/imu/imu_findings.hpp"
-#include "lio/map/map_agreement.hpp"
 #include "lio/pipeline/inertial_pipeline.hpp"
-#include "lio/scan/plane_projection.hpp"
 
 namespace nvm::lio {
 
@@ -82,39 +80,6 @@ void InertialPipeline::go_alone(const ConstantVelocity& motion) {
   motion_ = motion;
   judge_.forget();
   is_alone_ = true;
-}
-
-// A doubtful pose is compared with where the scan lies by itself.
-bool InertialPipeline::is_led_astray(
-    const Scan& scan, const ConstantVelocity& motion, const FrameResult& result) {
-  constexpr double kApart = 0.02;    // [m]
-  constexpr double kTurned = 0.02;   // [rad]
-  constexpr double kClearly = 0.92;  // of a sweep that is deskewed badly both lie off
-  if (result.residuals == 0 || !predictions_.is_doubtful()) {
-    return false;
-  }
-  alone_.continue_from(motion);
-  const FrameResult alone = alone_.locate(scan);
-  const Pose apart = filter_->state().T_world_lidar().inverse() * alone.T_map_lidar;
-  const bool is_elsewhere =
-      apart.translation().norm() > kApart || so3_log(apart.linear()).norm() > kTurned;
-  if (!is_elsewhere || !is_believed(alone.status) || !alone.unobserved.empty()) {
-    return false;
-  }
-  DeskewedScan alone_scan = alone_.scan();
-  project_to_planes(alone_.estimated(), options_.max_plane_offset, alone_scan);
-  return distance_from_map(alone_scan, alone.T_map_lidar) <
-         kClearly * distance_from_map(prepared_.scan, filter_->state().T_world_lidar());
-}
-
-// Of the points that the scans alone have matched, wherever a motion has placed them: of a scan
-// that is deskewed badly the walls that tell it are thick, and no planes to its own matching.
-double InertialPipeline::distance_from_map(
-    const DeskewedScan& scan, const Pose& T_map_lidar) const {
-  std::vector<Eigen::Vector3f> points, normals;
-  pick(scan.points, alone_.keypoints(), points);
-  pick(alone_.normals(), alone_.keypoints(), normals);
-  return lio::distance_from_map(*map_, points, normals, T_map_lidar);
 }
 
 // Each time soon after the last it must prove itself for twice as long: after the third for longer
@@ -253,11 +218,19 @@ std::vector<std::string> InertialPipeline::findings() const {
 
 // Where its judge has found no cause; empty when it was not left.
 std::string InertialPipeline::why_left() const {
+  constexpr double kEnded = 0.5;  // [s]
+  const double silence = motion_.last().time - read_until_;
+  if (first_time_ && read_until_ > *first_time_ && silence > kEnded) {
+    return early_end_finding(silence);
+  }
   if (contradictions_ > 0) {
     return contradiction_finding(contradictions_, is_alone_);
   }
   if (!is_alone_ || map_->size() == 0) {  // without a map the scans tell nothing either
     return "";
+  }
+  if (imu_.stats().accepted == 0) {
+    return "no IMU readings came: the scans alone are used";
   }
   return read_until_ < *first_time_
              ? "no IMU reading is as old as a scan: their clocks differ, set imu.time_offset; the "
