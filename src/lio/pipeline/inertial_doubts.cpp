@@ -52,6 +52,11 @@ bool InertialPipeline::agrees_with_map(const MatchResult& match) const {
                  .share() >= options_.min_inlier_share;
 }
 
+// Up to the end of the scan, rather than a guess.
+bool InertialPipeline::has_readings() const {
+  return !samples_.empty() && filter_->state().time - samples_.back().time <= max_imu_gap();
+}
+
 // One scan may be damaged or of elsewhere; when more of them lie there, the IMU was wrong.
 bool InertialPipeline::is_leap(const Pose& T_map_lidar) {
   constexpr double kLeap = 0.2;         // [m]

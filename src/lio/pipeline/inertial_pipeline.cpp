@@ -201,11 +201,11 @@ void InertialPipeline::match(FrameResult& result) {
   }
   const ErrorStateFilter predicted = *filter_;
   const bool was_sure = is_sure();
-  if (was_sure) {
-    sure_prediction_ = predicted;
-  } else {
-    sure_prediction_.reset();
+  sure_prediction_.reset();
+  if (!was_sure) {
     find_again();
+  } else if (has_readings()) {
+    sure_prediction_ = predicted;
   }
   const MatchResult match = matcher_->match(*map_, prepared_, *filter_);
   predictions_.add(predicted, *filter_, match.inlier_share, imu_.interval());

@@ -93,6 +93,7 @@ class InertialPipeline final : public Pipeline {
   std::optional<Pose> led_astray_from(
       const Scan& scan, const ConstantVelocity& motion, const FrameResult& result);
   bool hangs(const Scan& scan);
+  bool has_readings() const;
   bool is_leap(const Pose& T_map_lidar);
   double distance_from_map(const DeskewedScan& scan, const Pose& T_map_lidar) const;
   void leave_imu(const ConstantVelocity& motion);
@@ -139,7 +140,7 @@ class InertialPipeline final : public Pipeline {
   std::size_t min_first_keypoints_;  ///< of a scan that begins a map
   std::optional<Pose> start_;        ///< T_map_body in a map that others have begun
   std::optional<ErrorStateFilter> filter_;
-  std::optional<ErrorStateFilter> sure_prediction_;  ///< of the last scan
+  std::optional<ErrorStateFilter> sure_prediction_;  ///< of the last scan, by readings
   std::size_t leaps_ = 0;                            ///< of scans away from it, on end
   double imu_time_offset_;                           ///< that is added to the times of readings [s]
   double read_until_ = -1e300;                       ///< time of the last reading taken [s]

@@ -229,12 +229,9 @@ std::string InertialPipeline::why_left() const {
   if (!is_alone_ || map_->size() == 0) {  // without a map the scans tell nothing either
     return "";
   }
-  if (imu_.stats().accepted == 0) {
-    return "no IMU readings came: the scans alone are used";
-  }
   return read_until_ < *first_time_
-             ? "no IMU reading is as old as a scan: their clocks differ, set imu.time_offset; the "
-               "scans alone are used"
+             ? "no IMU reading is as old as a scan: there are none, or their clocks differ (set "
+               "imu.time_offset); the scans alone are used"
              : "the IMU has not told the motion that the scans tell: the scans alone are used";
 }
 
