@@ -13,6 +13,7 @@
 #include "io/file/pending_files.hpp"
 #include "io/result/map_cloud.hpp"
 #include "io/result/map_files.hpp"
+#include "io/result/map_in.hpp"
 #include "io/result/map_origin.hpp"
 #include "nvm/map/serialization.hpp"
 
@@ -58,14 +59,17 @@ void add_export_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "export", "Write a saved map as points with normals and sides, or as an image to be mapped");
   const auto arguments = std::make_shared<ExportArguments>();
-  command->add_option("MAP", arguments->map, "A map.nvm file")->required();
+  command->add_option("MAP", arguments->map, "A map.nvm file, or a folder of results")->required();
   command
       ->add_option(
           "--out",
           arguments->out,
           "A .ply or .pcd file, or a .image, which programs load in milliseconds and share")
       ->required();
-  command->callback([arguments] { write_export(*arguments); });
+  command->callback([arguments] {
+    arguments->map = io::map_in(arguments->map);
+    write_export(*arguments);
+  });
 }
 
 }  // namespace nvm::app

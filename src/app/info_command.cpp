@@ -10,6 +10,7 @@
 #include <string>
 
 #include "io/file/doing.hpp"
+#include "io/result/map_in.hpp"
 #include "io/result/map_origin.hpp"
 #include "nvm/map/serialization.hpp"
 #include "nvm/map/sighting.hpp"
@@ -61,8 +62,8 @@ void print_info(const std::string& path) {
 void add_info_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("info", "Say what a saved map holds");
   const auto path = std::make_shared<std::string>();
-  command->add_option("MAP", *path, "A map.nvm file")->required();
-  command->callback([path] { print_info(*path); });
+  command->add_option("MAP", *path, "A map.nvm file, or a folder of results")->required();
+  command->callback([path] { print_info(io::map_in(*path)); });
 }
 
 }  // namespace nvm::app

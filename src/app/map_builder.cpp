@@ -5,13 +5,16 @@
 #include <limits>
 #include <optional>
 
+#include "eval/trajectory/gaps.hpp"
 #include "lio/state/motion_along.hpp"
 
 namespace nvm::app {
 
-MapBuilder::MapBuilder(const lio::PipelineOptions& options, const Trajectory& T_map_body)
+MapBuilder::MapBuilder(
+    const lio::PipelineOptions& options, const Trajectory& T_map_body, double max_gap)
     : returns_(options.inertial.returns),
       trajectory_(T_map_body),
+      max_gap_(max_gap),
       executor_(options.threads),
       preparer_(
           options.inertial.normals,
@@ -27,6 +30,10 @@ MapBuilder::MapBuilder(const lio::PipelineOptions& options, const Trajectory& T_
 bool MapBuilder::add(const Scan& scan) {
   const std::optional<Pose> end = pose_at(trajectory_, scan.t_end);
   if (!end) {
+    return false;
+  }
+  if (eval::gap_around(trajectory_, scan.t_end) > max_gap_) {
+    in_gaps_.push_back(scan.t_end);
     return false;
   }
   end_.time = scan.t_end;

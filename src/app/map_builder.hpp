@@ -17,12 +17,16 @@ namespace nvm::app {
 /// Puts scans into a map at poses that are known.
 class MapBuilder {
  public:
-  /// Throws std::invalid_argument for bad options.
-  MapBuilder(const lio::PipelineOptions& options, const Trajectory& T_map_body);
+  /// The poses are interpolated where they are at most `max_gap` [s] apart. Throws
+  /// std::invalid_argument for bad options.
+  MapBuilder(const lio::PipelineOptions& options, const Trajectory& T_map_body, double max_gap);
 
   /// Adds a scan, deskewed along the trajectory. False when the trajectory says nothing about the
-  /// scan's time.
+  /// scan's end, which may lie in a gap of it.
   bool add(const Scan& scan);
+
+  /// The ends [s] of the scans that lie in such gaps.
+  const std::vector<double>& in_gaps() const { return in_gaps_; }
 
   const lio::LioMap& map() const { return *map_; }
   const InsertTotals& inserted() const { return inserted_; }
@@ -33,7 +37,9 @@ class MapBuilder {
   lio::ReturnLimits returns_;
   lio::NavState end_;
   Trajectory trajectory_;
+  double max_gap_;
   Trajectory placed_;
+  std::vector<double> in_gaps_;
   Executor executor_;
   lio::ScanPreparer preparer_;
   std::unique_ptr<lio::LioMap> map_;

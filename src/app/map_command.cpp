@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstddef>
 #include <iterator>
 #include <memory>
@@ -15,10 +16,12 @@
 
 #include "app/failure.hpp"
 #include "app/map_builder.hpp"
+#include "app/number_between.hpp"
 #include "app/results.hpp"
 #include "app/run_options.hpp"
 #include "app/say.hpp"
 #include "eval/trajectory/association.hpp"
+#include "eval/trajectory/gaps.hpp"
 #include "io/file/doing.hpp"
 #include "io/file/file.hpp"
 #include "io/result/map_origin.hpp"
@@ -33,6 +36,7 @@ struct MapArguments {
   std::string input;
   std::string poses;
   std::string folder;
+  std::optional<double> max_gap;  ///< [s]
   RunOptionArguments options;
 };
 
@@ -120,6 +124,31 @@ void print_origin(const Eigen::Vector3d& origin) {
   }
 }
 
+/// Says what the poses leave to guess: where a sensor that is carried went between them.
+void print_gaps(const Trajectory& poses, const MapBuilder& builder, double max_gap) {
+  constexpr double kSparse = 0.25;  // [s]
+  const std::vector<double>& in_gaps = builder.in_gaps();
+  if (!in_gaps.empty()) {
+    say(fmt::format(
+        "warning: {} scans are left out, the first at {:.3f} s: they lie between poses more than "
+        "{:.2f} s apart (--max-gap)",
+        in_gaps.size(),
+        in_gaps.front(),
+        max_gap));
+  }
+  const auto is_between = [&](const StampedPose& placed) {
+    return eval::gap_around(poses, placed.time) > kSparse;
+  };
+  const auto between = std::count_if(builder.placed().begin(), builder.placed().end(), is_between);
+  if (between > 0) {
+    say(fmt::format(
+        "warning: {} scans lie between poses {:.2f} s apart: a straight way is taken there, and a "
+        "sensor that is carried leaves it by centimetres. Give a pose at each scan's end",
+        between,
+        eval::usual_step(poses)));
+  }
+}
+
 /// Reads the scans and publishes what became of them.
 void build_map(
     const MapArguments& arguments,
@@ -127,8 +156,9 @@ void build_map(
     io::SequenceReader& reader,
     const RunOptions& options) {
   const Eigen::Vector3d origin = io::choose_origin(poses);
+  const double max_gap = arguments.max_gap.value_or(eval::default_max_gap(poses));
   MapBuilder builder = io::doing(making_map(options.pipeline.map), [&] {
-    return MapBuilder(options.pipeline, io::moved(poses, -origin));
+    return MapBuilder(options.pipeline, io::moved(poses, -origin), max_gap);
   });
   const Interruption interruption;
   io::ResultFolder results(arguments.folder);
@@ -140,6 +170,7 @@ void build_map(
     return "";
   });
   print_notes(reader.info());
+  print_gaps(poses, builder, max_gap);
   const std::size_t map_points = builder.map().points().size();
   check_useful(
       map_points,
@@ -183,6 +214,13 @@ void add_map_command(CLI::App& app) {
       "TUM file, or KITTI file with a line per scan: the pose of the body at least at each scan's "
       "end");
   command->add_option("--out", arguments->folder, "Folder of map.ply, map.nvm and trajectory.tum");
+  command
+      ->add_option(
+          "--max-gap",
+          arguments->max_gap,
+          "Scans between poses farther apart are left out [s]; default: 0.25, or 1.5 usual steps "
+          "up to 1.5")
+      ->check(number_between(0.0, 1e6));
   add_run_options(*command, arguments->options);
   command->callback([arguments] {
     std::optional<RunOptions> options = read_run_options(arguments->options);

@@ -14,6 +14,7 @@
 #include "app/say.hpp"
 #include "io/file/doing.hpp"
 #include "io/file/file.hpp"
+#include "io/result/map_in.hpp"
 #include "io/result/map_origin.hpp"
 #include "lio/pipeline/prior_pipeline.hpp"
 #include "nvm/map/serialization.hpp"
@@ -73,7 +74,9 @@ std::optional<lio::Start> start_from(
 
 void add_prior_options(CLI::App& command, PriorArguments& arguments) {
   command.add_option(
-      "--map", arguments.map, "Prior map (map.nvm) to find the way in; it stays as it is");
+      "--map",
+      arguments.map,
+      "Prior map (map.nvm, or the folder of a run) to find the way in; it stays as it is");
   command
       .add_option(
           "--start",
@@ -96,7 +99,7 @@ void check(const PriorArguments& arguments, const std::string& folder) {
   }
   start_from(arguments.start, Eigen::Vector3d::Zero());  // refuses bad ones before all else
   std::error_code ignored;
-  const fs::path parent = fs::absolute(arguments.map).parent_path();
+  const fs::path parent = fs::absolute(io::map_in(arguments.map)).parent_path();
   if (fs::equivalent(parent, folder, ignored)) {
     io::fail(
         arguments.map, "would be replaced: it lies in " + folder + "; give --out another folder");
@@ -104,13 +107,14 @@ void check(const PriorArguments& arguments, const std::string& folder) {
 }
 
 Eigen::Vector3d origin_of(const PriorArguments& arguments) {
-  return arguments.map.empty() ? Eigen::Vector3d::Zero() : io::read_origin(arguments.map);
+  return arguments.map.empty() ? Eigen::Vector3d::Zero()
+                               : io::read_origin(io::map_in(arguments.map));
 }
 
 std::unique_ptr<lio::Pipeline> make_prior_pipeline(
     const PriorArguments& arguments, const lio::PipelineOptions& options) {
   return io::doing("loading " + arguments.map, [&] {
-    VoxelMap map = load_map(arguments.map);
+    VoxelMap map = load_map(io::map_in(arguments.map));
     const std::string text = differences(map.options(), options.map);
     if (!text.empty()) {
       say("note: " + arguments.map + " keeps its own options: " + text);

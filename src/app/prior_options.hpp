@@ -17,7 +17,7 @@ namespace nvm::app {
 
 /// What the command line says about a prior map.
 struct PriorArguments {
-  std::string map;            ///< a map.nvm file; empty: none
+  std::string map;            ///< a map.nvm file, or the folder of one; empty: none
   std::vector<double> start;  ///< x y z [m] yaw [rad], or x y z qx qy qz qw; or none
   bool extends = false;
 };

@@ -205,7 +205,7 @@ void run(const RunArguments& arguments, RunOptions& options) {
   RunStream stream(arguments.stream);
   SecondStart second_start(arguments.input, arguments.again);
   while (run_once(arguments, options, stream, second_start)) {
-    second_start.begin(options.pipeline.inertial.imu_input);
+    second_start.begin(options);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "app/run_options.hpp"
 #include "lio/pipeline/pipeline.hpp"
 
 namespace nvm::app {
@@ -22,17 +23,17 @@ class SecondStart {
   /// At the end of the recording: whether what was found last calls for it.
   bool is_due() const { return begin_ && !is_begun_; }
 
-  /// Begins again: `imu` becomes what was found, in words for the user. Throws Failure when the
-  /// input has to come again first.
-  void begin(lio::ImuInputOptions& imu);
+  /// Begins again: `options` take over what was found, in words for the user. Throws Failure when
+  /// the input has to come again first.
+  void begin(RunOptions& options);
 
  private:
   std::string file_;
   bool is_begun_ = false;
   std::optional<double> first_;  ///< time of the first frame [s]
-  std::optional<double> begin_;  ///< since when there is a `better_`, with a clock that stays [s]
-  double offset_then_ = 0.0;     ///< of the clock at `begin_` [s]
-  lio::ImuInputOptions better_;
+  std::optional<double> begin_;  ///< since when there is a `better_` that stays [s]
+  lio::ImuSetup then_;           ///< what it was then
+  lio::ImuSetup better_;
   bool is_pipe_ = false;
 };
 

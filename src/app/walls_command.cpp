@@ -18,6 +18,7 @@
 #include "io/file/file.hpp"
 #include "io/result/map_cloud.hpp"
 #include "io/result/map_files.hpp"
+#include "io/result/map_in.hpp"
 #include "io/result/map_origin.hpp"
 #include "io/result/tile_store.hpp"
 #include "nvm/map/serialization.hpp"
@@ -36,12 +37,6 @@ struct WallsArguments {
   std::string folder;
   survey::SurveyOptions options;
 };
-
-/// `path`, or the map in it when it is a folder of results.
-std::string map_in(const std::string& path) {
-  const std::string file = path + "/map.nvm";
-  return std::filesystem::is_directory(path) && std::filesystem::exists(file) ? file : path;
-}
 
 bool is_cloud(const std::string& path) {
   const std::string extension = io::extension_of(path);
@@ -134,7 +129,7 @@ void say_notes(const survey::Survey& found, const io::MapCloud& cloud, double pl
 
 void list_walls(const WallsArguments& arguments) {
   arguments.options.validate();
-  const std::string map = map_in(arguments.map);
+  const std::string map = io::map_in(arguments.map);
   const io::MapCloud cloud = io::doing("loading " + map, [&] { return read_map(map); });
   const survey::Survey found = io::doing("looking for walls", [&] {
     try {

@@ -47,12 +47,30 @@ bool is_clearly_better(const Trial& best, const Trial& other) {
 
 double merit(const SessionFit& fit) { return fit.overlap - kWeight * fit.contradiction; }
 
+/// That `pose` is not where `guess` may have meant, which tells about 1 m and 5 degrees; empty when
+/// it is.
+std::string distance_from(const Pose& guess, const Pose& pose) {
+  constexpr double kMostDistance = 3.0;  // [m]
+  constexpr double kMostTurn = 0.4;      // [rad]
+  constexpr double kDegrees = 57.29577951308232;
+  const double distance = (pose.translation() - guess.translation()).norm();
+  const double turn = so3_log(guess.linear().transpose() * pose.linear()).norm();
+  if (distance <= kMostDistance && turn <= kMostTurn) {
+    return "";
+  }
+  return fmt::format(
+      "finds no place near the guess: it fits best {:.1f} m and {:.0f} degrees away from it, and a "
+      "guess must be right to about 1 m and 5 degrees: mend it, or leave it out",
+      distance,
+      kDegrees * turn);
+}
+
 /// Why `fit` is not good enough; empty when it is. Rooms of another part of a building that lie on
 /// those of the map contradict it by 1 % and more, a session at its place by 0.2 %. Somebody who
 /// gives a guess may know of furniture that was moved.
-std::string doubt(const SessionFit& fit, bool is_guessed) {
+std::string doubt(const SessionFit& fit, const std::optional<Pose>& guess) {
   constexpr std::size_t kLeastShared = 3;
-  const double most_contradiction = is_guessed ? 0.03 : 0.0075;
+  const double most_contradiction = guess ? 0.03 : 0.0075;
   if (fit.shared_keyframes < kLeastShared) {
     return fmt::format(
         "does not overlap: {} of {} keyframes lie on the other sessions, and {} must",
@@ -67,7 +85,7 @@ std::string doubt(const SessionFit& fit, bool is_guessed) {
         100.0 * fit.contradiction,
         100.0 * most_contradiction);
   }
-  return "";
+  return guess ? distance_from(*guess, fit.T_map_session) : "";
 }
 
 }  // namespace
@@ -106,7 +124,7 @@ SessionFit SessionPlacer::place(
     propose(keyframes[voters[i]], guess, proposals);
     if (i + 1 == next_look || i + 1 == voters.size()) {
       next_look *= 2;
-      fit = best_of(proposals, body, guess.has_value());
+      fit = best_of(proposals, body, guess);
       if (fit.why_not.empty()) {
         return fit;
       }
@@ -146,7 +164,9 @@ void SessionPlacer::propose(
 }
 
 SessionFit SessionPlacer::best_of(
-    const std::vector<Proposal>& proposals, const SessionBody& body, bool is_guessed) const {
+    const std::vector<Proposal>& proposals,
+    const SessionBody& body,
+    const std::optional<Pose>& guess) const {
   constexpr std::size_t kMostTrials = 8;
   std::vector<Proposal> ranked = proposals;
   std::stable_sort(ranked.begin(), ranked.end(), [](const Proposal& a, const Proposal& b) {
@@ -172,10 +192,9 @@ SessionFit SessionPlacer::best_of(
       std::max_element(trials.begin(), trials.end(), [](const Trial& a, const Trial& b) {
         return merit(a.fit) < merit(b.fit);
       });
-  best->fit.why_not = doubt(best->fit, is_guessed);
+  best->fit.why_not = doubt(best->fit, guess);
   for (auto other = trials.begin(); other != trials.end() && best->fit.why_not.empty(); ++other) {
-    if (other != best && doubt(other->fit, is_guessed).empty() &&
-        !is_clearly_better(*best, *other)) {
+    if (other != best && doubt(other->fit, guess).empty() && !is_clearly_better(*best, *other)) {
       best->fit.why_not = "fits at two places about equally well";
     }
   }

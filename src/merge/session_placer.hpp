@@ -37,7 +37,9 @@ class SessionPlacer {
       const std::optional<Pose>& guess,
       std::vector<Proposal>& proposals);
   SessionFit best_of(
-      const std::vector<Proposal>& proposals, const SessionBody& body, bool is_guessed) const;
+      const std::vector<Proposal>& proposals,
+      const SessionBody& body,
+      const std::optional<Pose>& guess) const;
 
   const VoxelMap& map_;
   Executor executor_;

@@ -84,7 +84,16 @@ TEST_F(PriorTest, TheMapsOwnOptionsCountAndThatIsSaid) {
 }
 
 TEST_F(PriorTest, SaysInOneLineThatTheStartIsWrong) {
-  expect_failure(in_prior("--start 50,0,0,0"), "not found in the prior map");
+  const Outcome outcome = nvm(in_prior("--start 50,0,0,0"));
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_THAT(outcome.errors, HasSubstr("warning: the start that was given is wrong"));
+}
+
+TEST_F(PriorTest, TakesTheFolderOfARun) {
+  EXPECT_EQ(nvm("info " + path("prior")).output, nvm("info " + path("prior/map.nvm")).output);
+  EXPECT_EQ(nvm("export " + path("prior") + " --out " + path("prior/export.ply")).status, 0);
+  const Outcome outcome = nvm(run("--map " + path("prior") + " --start 0,0,0,0"));
+  EXPECT_EQ(outcome.status, 0) << outcome.errors;
 }
 
 TEST_F(PriorTest, RefusesWhatIsNoPriorMapInOneLine) {

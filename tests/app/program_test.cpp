@@ -158,6 +158,22 @@ TEST_F(ProgramTest, MapNeedsPosesAtTheTimesOfScans) {
   expect_failure(map + path("timestamps.txt"), "timestamps.txt");
 }
 
+TEST_F(ProgramTest, MapLeavesOutScansInGapsOfThePoses) {
+  const std::string map = "map " + path("") + " --out " + path("map") +
+                          " --set normals.min_radius=0.4 --set normals.max_radius=0.6 --poses ";
+  Trajectory holed = truth_;
+  holed.erase(holed.begin() + 2);
+  for (const double far : {100.0, 101.0, 102.0}) {  // of steps as between the others
+    holed.push_back({truth_.back().time + far, truth_.back().pose});
+  }
+  io::write_tum(path("holed.tum"), holed);
+  const Outcome outcome = nvm(map + path("holed.tum") + " --max-gap 0.15");
+  EXPECT_EQ(outcome.status, 0) << outcome.errors;
+  EXPECT_THAT(outcome.output, HasSubstr("4 of 5 scans placed"));
+  EXPECT_THAT(outcome.errors, HasSubstr("warning: 1 scans are left out, the first at "));
+  EXPECT_THAT(nvm(map + path("holed.tum") + " --max-gap 10").output, HasSubstr("5 of 5 scans"));
+}
+
 TEST_F(ProgramTest, SaysWhatItCanDo) {
   const Outcome help = nvm("--help");
   EXPECT_EQ(help.status, 0);

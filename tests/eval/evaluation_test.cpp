@@ -137,6 +137,19 @@ TEST_F(EvaluationOfRuns, TakesAnEmptyMapForOneWithoutWalls) {
   EXPECT_FALSE(summarize(run.map.walls).absolute_error.has_value());
 }
 
+TEST_F(EvaluationOfRuns, CountsNoSecondsWhereTheTruthHasAGap) {
+  add_run("nvm", test::sample_wall(random_, wall_));
+  Trajectory truth = io::read_tum((truth_ / "groundtruth.tum").string());
+  truth.erase(truth.begin() + 20, truth.begin() + 80);
+  io::write_tum((folder_ / "holed.tum").string(), truth);
+  const TrajectoryEvaluation trajectory =
+      *evaluate_run((folder_ / "nvm").string(), read_truth((folder_ / "holed.tum").string()), {})
+           .trajectory;
+  EXPECT_EQ(trajectory.association.pairs.size(), 40U);
+  EXPECT_NEAR(trajectory.seconds, 3.8, 1e-6);
+  EXPECT_NEAR(trajectory.truth_seconds, 9.9, 1e-6);
+}
+
 TEST_F(EvaluationOfRuns, ScoresABareTrajectory) {
   add_run("nvm", test::sample_wall(random_, wall_));
   add_run("bare", OrientedCloud());

@@ -148,12 +148,33 @@ TEST(PriorPipeline, ExtendsTheMapOnlyWhenAskedTo) {
   EXPECT_GT(pipeline.map().size(), size);
 }
 
-TEST(PriorPipeline, ClaimsNoPlaceWhereTheScansDoNotFit) {
+// Half a turn puts most of a scan on the walls of a room as well.
+TEST(PriorPipeline, FindsThePlaceByItselfWhereTheStartIsWrong) {
   const Pose T_map_room = room_in_map(0.0);
-  Start start{T_map_room, true};
-  start.T_map_body.translation().x() += 20.0;
-  PriorPipeline pipeline(
-      thin_scan_options(PipelineType::kFastLio), prior_map(T_map_room), start, false);
+  for (const auto& [distance, turn] : {std::pair(20.0, 0.0), {0.0, 3.14}, {0.0, 1.57}}) {
+    Start start{T_map_room, true};
+    start.T_map_body.translation().x() += distance;
+    start.T_map_body.linear() *= so3_exp({0.0, 0.0, turn});
+    PriorPipeline pipeline(
+        thin_scan_options(PipelineType::kFastLio), prior_map(T_map_room), start, false);
+    const std::vector<FrameResult> results = recording().run(pipeline);
+    EXPECT_EQ(results.back().status, FrameStatus::kTracking);
+    EXPECT_LT(worst_error(recording(), T_map_room, results), 0.05);
+    EXPECT_THAT(
+        pipeline.findings(), Contains(HasSubstr("the start that was given is wrong: the first")));
+  }
+}
+
+TEST(PriorPipeline, ClaimsNoPlaceWhereTheScansDoNotFit) {
+  VoxelMap map;
+  std::vector<Eigen::Vector3f> points, normals;
+  for (int i = 0; i < 10'000; ++i) {  // a wall alone
+    points.emplace_back(
+        3.0F, 0.05F * static_cast<float>(i % 100), 0.05F * static_cast<float>(i / 100));
+    normals.emplace_back(-1.0F, 0.0F, 0.0F);
+  }
+  map.insert(points, normals);
+  PriorPipeline pipeline(thin_scan_options(PipelineType::kFastLio), std::move(map), Start{}, false);
   for (const FrameResult& result : recording().run(pipeline)) {
     EXPECT_EQ(result.status, FrameStatus::kInitializing);
     EXPECT_THAT(result.message, HasSubstr("not found in the prior map"));

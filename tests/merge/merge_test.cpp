@@ -13,12 +13,28 @@ using test::at;
 using test::kElsewhere;
 using test::kRooms;
 using test::MergeTest;
+using ::testing::AnyOf;
 using ::testing::HasSubstr;
 
 TEST_F(MergeTest, TakesAGuess) {
   Pose guess = kElsewhere.inverse();
   guess.translation() += Eigen::Vector3d(0.4, -0.3, 0.1);
   EXPECT_LT(error(merged(both_rooms(), {guess}).fits[1], kElsewhere), 0.005);
+}
+
+TEST_F(MergeTest, RefusesAPlaceFarFromTheGuess) {
+  for (const auto& [distance, turn] : {std::pair(4.0, 0.0), {0.0, 3.14}, {0.0, 0.6}}) {
+    Pose guess = kElsewhere.inverse();
+    guess.translation().x() += distance;
+    guess.linear() *= so3_exp({0.0, 0.0, turn});
+    try {
+      const SessionFit fit = merged(both_rooms(), {guess}).fits[1];
+      FAIL() << "placed at " << error(fit, kElsewhere);
+    } catch (const std::runtime_error& refusal) {
+      EXPECT_THAT(
+          refusal.what(), AnyOf(HasSubstr("near the guess"), HasSubstr("does not overlap")));
+    }
+  }
 }
 
 TEST_F(MergeTest, TakesAGuessInTheFirstSessionsCoordinates) {

@@ -2,11 +2,15 @@
 // Copyright (c) 2026 The nvm authors
 #include "eval/report/evaluation.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
+#include "common/median.hpp"
 #include "eval/walls/oriented_cloud.hpp"
 #include "io/file/file.hpp"
 #include "io/sequence/trajectory_io.hpp"
@@ -24,6 +28,22 @@ Trajectory shifted(Trajectory trajectory, double time_offset) {
   return trajectory;
 }
 
+/// Without the times where one of the trajectories has a gap.
+double covered_seconds(const std::vector<PosePair>& pairs, double max_gap) {
+  constexpr double kSteps = 1.5;
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < pairs.size(); ++i) {
+    steps.push_back(pairs[i].time - pairs[i - 1].time);
+  }
+  if (steps.empty()) {
+    return 0.0;
+  }
+  const double longest = std::max(max_gap, kSteps * median(std::vector<double>(steps)));
+  return std::accumulate(steps.begin(), steps.end(), 0.0, [&](double sum, double step) {
+    return step > longest ? sum : sum + step;
+  });
+}
+
 TrajectoryEvaluation evaluate_trajectory(
     const std::string& path, const Trajectory& truth, const EvaluationOptions& options) {
   TrajectoryEvaluation result;
@@ -33,7 +53,7 @@ TrajectoryEvaluation evaluate_trajectory(
   if (pairs.empty()) {
     io::fail(path, why_unmatched(estimate, truth));
   }
-  result.seconds = pairs.back().time - pairs.front().time;
+  result.seconds = covered_seconds(pairs, result.association.max_gap);
   result.truth_seconds = truth.back().time - truth.front().time;
   try {
     result.alignment = align(pairs, options.alignment);

@@ -38,7 +38,7 @@ struct EvaluationOptions {
 
 /// How far a trajectory is from the truth.
 struct TrajectoryEvaluation {
-  double seconds = 0.0;        ///< between the first and the last pair
+  double seconds = 0.0;        ///< that the pairs cover, without the gaps between them
   double truth_seconds = 0.0;  ///< of the truth: what lies beyond the pairs is not judged
   Association association;
   Alignment alignment;

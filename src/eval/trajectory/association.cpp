@@ -8,10 +8,8 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <limits>
-#include <utility>
 
-#include "common/median.hpp"
+#include "eval/trajectory/gaps.hpp"
 
 namespace nvm::eval {
 
@@ -25,34 +23,6 @@ Trajectory finite_poses(const Trajectory& trajectory) {
   Trajectory finite;
   std::copy_if(trajectory.begin(), trajectory.end(), std::back_inserter(finite), is_finite);
   return finite;
-}
-
-/// The time [s] between the two poses around `time`; zero at a pose and outside the span.
-double gap_around(const Trajectory& trajectory, double time) {
-  const auto next = std::lower_bound(
-      trajectory.begin(), trajectory.end(), time, [](const StampedPose& pose, double t) {
-        return pose.time < t;
-      });
-  if (next == trajectory.begin() || next == trajectory.end() || next->time == time) {
-    return 0.0;
-  }
-  return next->time - std::prev(next)->time;
-}
-
-/// The median time [s] between poses; infinite when there are fewer than two.
-double usual_step(const Trajectory& trajectory) {
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < trajectory.size(); ++i) {
-    steps.push_back(trajectory[i].time - trajectory[i - 1].time);
-  }
-  return steps.empty() ? std::numeric_limits<double>::infinity() : median(std::move(steps));
-}
-
-double default_max_gap(const Trajectory& interpolated) {
-  constexpr double kSteps = 1.5;
-  constexpr double kMin = 0.25;
-  constexpr double kMax = 1.5;
-  return std::clamp(kSteps * usual_step(interpolated), kMin, kMax);
 }
 
 /// Whose clock shows `time` [s], as far as that can be told.

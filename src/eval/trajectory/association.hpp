@@ -32,9 +32,8 @@ struct Association {
 
 /// Pairs the poses of both trajectories: each pose of the sparser one with that of the other at its
 /// time, interpolated (slerp and straight line) between the two poses around it unless these are
-/// more than `max_gap` [s] apart. Without `max_gap` that is one and a half usual steps of the
-/// interpolated trajectory, 0.25 s at least and 1.5 s at most. Non-finite poses of either take no
-/// part. Both must ascend in time.
+/// more than `max_gap` [s] apart, which is default_max_gap() unless it is given. Non-finite poses
+/// of either take no part. Both must ascend in time.
 Association associate(
     const Trajectory& estimate,
     const Trajectory& truth,

@@ -10,30 +10,54 @@
 
 namespace nvm::lio {
 
-std::string rotation_finding(const TurnComparison& turns, const Pose& T_body_lidar) {
-  constexpr double kDegrees = 57.29577951308232;
-  const Eigen::Matrix3d R = turns.rotation.transpose() * T_body_lidar.linear();
-  const Eigen::Quaterniond q(R);
-  const Eigen::AngleAxisd turn(turns.rotation);
-  const Eigen::Vector3d p = T_body_lidar.translation();
+namespace {
+
+constexpr double kDegrees = 57.29577951308232;
+
+/// As the options take it.
+std::string setting_of(const Eigen::Matrix3d& R_body_lidar, const Eigen::Vector3d& p) {
+  const Eigen::Quaterniond q(R_body_lidar);
   return printed(
-      "the LiDAR is turned against the IMU by %.0f degrees about (%.2f, %.2f, %.2f): their "
-      "turn rates agree that way only, so T_imu_lidar is missing or wrong; the scans alone are "
-      "used. Set input.T_imu_lidar=[%.3f, %.3f, %.3f, %.4f, %.4f, %.4f, %.4f]%s",
-      turn.angle() * kDegrees,
-      turn.axis().x(),
-      turn.axis().y(),
-      turn.axis().z(),
+      "input.T_imu_lidar=[%.3f, %.3f, %.3f, %.4f, %.4f, %.4f, %.4f]",
       p.x(),
       p.y(),
       p.z(),
       q.x(),
       q.y(),
       q.z(),
-      q.w(),
+      q.w());
+}
+
+}  // namespace
+
+std::string rotation_finding(const TurnComparison& turns, const Pose& T_body_lidar) {
+  const Eigen::AngleAxisd turn(turns.rotation);
+  return printed(
+      "the LiDAR is turned against the IMU by %.0f degrees about (%.2f, %.2f, %.2f): their "
+      "turn rates agree that way only, so T_imu_lidar is missing or wrong; the scans alone are "
+      "used. Set %s%s",
+      turn.angle() * kDegrees,
+      turn.axis().x(),
+      turn.axis().y(),
+      turn.axis().z(),
+      setting_of(turns.rotation.transpose() * T_body_lidar.linear(), T_body_lidar.translation())
+          .c_str(),
       turns.is_about_one_axis
           ? " (the sensor turned about one axis alone: a turn about that axis is not known)"
           : "");
+}
+
+std::string small_rotation_finding(const Eigen::Matrix3d& rotation, const Pose& T_body_lidar) {
+  const Eigen::AngleAxisd turn(rotation);
+  return printed(
+      "the LiDAR is turned by %.1f degrees about (%.2f, %.2f, %.2f) against where T_imu_lidar has "
+      "it, for so do its turns against the gyroscope's. Set %s (imu.learn_rotation=false leaves "
+      "it)",
+      turn.angle() * kDegrees,
+      turn.axis().x(),
+      turn.axis().y(),
+      turn.axis().z(),
+      setting_of(rotation.transpose() * T_body_lidar.linear(), T_body_lidar.translation()).c_str());
 }
 
 std::string mirrored_scans_finding(const Eigen::Vector3d& normal) {

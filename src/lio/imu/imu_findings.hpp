@@ -16,6 +16,8 @@ namespace nvm::lio {
 
 /// `T_body_lidar` is the extrinsic that the poses take for granted.
 std::string rotation_finding(const TurnComparison& turns, const Pose& T_body_lidar);
+/// Of one by some degrees.
+std::string small_rotation_finding(const Eigen::Matrix3d& rotation, const Pose& T_body_lidar);
 
 /// Of scans that are a mirror image; `normal` of the mirror, body frame.
 std::string mirrored_scans_finding(const Eigen::Vector3d& normal);

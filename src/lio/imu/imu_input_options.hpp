@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The nvm authors
 #pragma once
 
+#include "nvm/geometry/pose.hpp"
+
 namespace nvm::lio {
 
 /// What to make of the IMU's numbers.
@@ -14,8 +16,16 @@ struct ImuInputOptions {
   double time_offset = 0.0;
   /// Whether what is left of it is learned from the turns of scans and gyroscope.
   bool learns_time_offset = true;
+  /// Whether a rotation of the extrinsic that is off by degrees is learned from them too.
+  bool learns_rotation = true;
 
   void validate() const;
+};
+
+/// What a run takes for granted of its IMU.
+struct ImuSetup {
+  ImuInputOptions input;
+  Pose T_imu_lidar = Pose::Identity();
 };
 
 }  // namespace nvm::lio

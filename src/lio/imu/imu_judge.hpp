@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "lio/imu/axes_watch.hpp"
 #include "lio/imu/clock_watch.hpp"
 #include "lio/imu/imu_clipping.hpp"
 #include "lio/imu/imu_input_options.hpp"
@@ -59,7 +60,7 @@ class ImuJudge {
   double clock_offset() const { return clocks_.mended(); }
   /// Settings with which all that motion has told would have held from the beginning; nothing while
   /// it has told nothing that counts.
-  std::optional<ImuInputOptions> better_input() const;
+  std::optional<ImuSetup> better_setup() const;
   /// The motion at the last pose, once scans and accelerometer agree on it.
   std::optional<MotionFit> motion() const;
 
@@ -79,6 +80,7 @@ class ImuJudge {
   bool mend_gyro(const TurnComparison& turns, bool is_explained);
   void look_at_clock(double time);
   void mend_clock(double offset);
+  std::optional<Eigen::Matrix3d> learned_rotation() const;
   ImuVerdict judge_gravity();
   ImuVerdict weigh_rest(double duration);
   ImuVerdict judge_sign(ImuVerdict turns);
@@ -101,6 +103,7 @@ class ImuJudge {
   RestForce rest_;
   RangeScale ranges_;
   ClockWatch clocks_;
+  AxesWatch axes_;
   double untaken_offset_ = 0.0;  ///< of the clock, for take_clock_offset() [s]
   double clocked_ = -1e300;      ///< until then the turns have told of the clock [s]
   double tried_clock_ = -1e300;  ///< when they were asked last [s]

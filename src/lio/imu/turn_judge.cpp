@@ -91,6 +91,10 @@ void ImuJudge::look_at_clock(double time) {
 }
 
 void ImuJudge::mend_clock(double offset) {
+  constexpr double kMuch = 2e-3;  // that would pass for a turn of the axes [s]
+  if (std::abs(offset) > kMuch) {
+    axes_ = AxesWatch();
+  }
   clocks_.mend(offset);
   untaken_offset_ += offset;
   history_.move_readings(-offset);

@@ -77,7 +77,7 @@ class InertialPipeline final : public Pipeline {
   const DeskewedScan& scan() const override;
   const std::vector<Eigen::Vector3f>& normals() const override;
   void start_at(const Pose& T_map_body) override;
-  std::optional<ImuInputOptions> better_imu_input() const override;
+  std::optional<ImuSetup> better_imu_setup() const override;
   std::vector<std::string> findings() const override;
 
   /// The filter, once initialised.

@@ -189,8 +189,8 @@ void InertialPipeline::follow_imu_clock() {
   imu_time_offset_ -= offset;
 }
 
-std::optional<ImuInputOptions> InertialPipeline::better_imu_input() const {
-  return is_imu_usable_ ? judge_.better_input() : std::nullopt;
+std::optional<ImuSetup> InertialPipeline::better_imu_setup() const {
+  return is_imu_usable_ ? judge_.better_setup() : std::nullopt;
 }
 
 std::vector<std::string> InertialPipeline::findings() const {

@@ -112,7 +112,7 @@ class Pipeline {
 
   /// What was found out of the IMU too late for the scans until then, as settings to begin again
   /// with; nothing while there is nothing, or the IMU is of no use.
-  virtual std::optional<ImuInputOptions> better_imu_input() const { return std::nullopt; }
+  virtual std::optional<ImuSetup> better_imu_setup() const { return std::nullopt; }
 
   /// What is wrong, or was mended, in the data as a whole. One line each: what was seen, what it
   /// usually means, what mends it.

@@ -150,6 +150,10 @@ void bind_imu(Schema& schema, InertialOptions& inertial) {
       "learn_time_offset",
       input.learns_time_offset,
       "The rest of it is learned from the turns of scans and gyroscope");
+  schema.add(
+      "learn_rotation",
+      input.learns_rotation,
+      "So is a rotation of T_imu_lidar that is off by degrees");
   InitializerOptions& initializer = inertial.initializer;
   schema.add(
       "still_duration",

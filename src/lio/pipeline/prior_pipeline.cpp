@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "common/printed.hpp"
 #include "lio/map/has_planes.hpp"
 #include "lio/place/scan_witness.hpp"
 
@@ -27,6 +28,16 @@ std::unique_ptr<LioMap> usable(const PipelineOptions& options, VoxelMap prior, b
                       : "the points of the prior map have no normals: make it with map.type=nvm");
   }
   return continued_map(std::move(prior), !extends);
+}
+
+/// Of the lines of sight: furniture may have been moved.
+constexpr double kMostAgainst = 0.02;
+
+/// The share of the lines of sight of a scan at `T_map_scan` that pass faces of `map`.
+double share_against(const ScanWitness& witness, const VoxelMap& map, const Pose& T_map_scan) {
+  const Testimonies testimonies = witness.testify(map, T_map_scan);
+  return static_cast<double>(count(testimonies, Testimony::kAgainst)) /
+         static_cast<double>(std::max<std::size_t>(1, testimonies.size()));
 }
 
 std::string found_again(double silence) {
@@ -94,10 +105,9 @@ void PriorPipeline::believe(const FrameResult& result) {
 // Half of a scan fits somewhere in most rooms. Of a sensor that was carried away tell how far it
 // would have come and, where it fits worse than before, the lines of sight.
 bool PriorPipeline::is_doubtful(const FrameResult& result) const {
-  constexpr double kReach = 0.5;         // [m]
-  constexpr double kSpeed = 3.0;         // [m/s]
-  constexpr double kDrop = 0.2;          // of the share that fits
-  constexpr double kMostAgainst = 0.02;  // of the lines of sight: furniture may have been moved
+  constexpr double kReach = 0.5;  // [m]
+  constexpr double kSpeed = 3.0;  // [m/s]
+  constexpr double kDrop = 0.2;   // of the share that fits
   const double reach = kReach + (kSpeed + 2.0 * last_speed_) * watch_.silence(result.time);
   if ((result.T_map_body.translation() - last_pose_->translation()).norm() > reach) {
     return true;
@@ -106,12 +116,11 @@ bool PriorPipeline::is_doubtful(const FrameResult& result) const {
   return is_worse && contradiction(result.T_map_lidar) > kMostAgainst;
 }
 
-/// The share of the last scan's lines of sight that pass faces of the map.
 double PriorPipeline::contradiction(const Pose& T_map_lidar) const {
-  const ScanWitness witness(pipeline_->scan().points, pipeline_->normals());
-  const Testimonies testimonies = witness.testify(*pipeline_->map().voxel_map(), T_map_lidar);
-  return static_cast<double>(count(testimonies, Testimony::kAgainst)) /
-         static_cast<double>(std::max<std::size_t>(1, testimonies.size()));
+  return share_against(
+      ScanWitness(pipeline_->scan().points, pipeline_->normals()),
+      *pipeline_->map().voxel_map(),
+      T_map_lidar);
 }
 
 FrameResult PriorPipeline::search(const Scan& scan) {
@@ -163,7 +172,7 @@ bool PriorPipeline::is_to_search(double time) {
   constexpr double kPause = 0.25;    // [s]
   constexpr double kPatience = 0.1;  // of the time since the first try
   first_try_ = first_try_.value_or(time);
-  if (!start_ && time < next_try_) {
+  if (time < next_try_) {
     return false;
   }
   next_try_ = time + kPause + kPatience * (time - *first_try_);
@@ -174,15 +183,50 @@ Place PriorPipeline::find(const Scan& scan) {
   deskew(scan, {{scan.t_end, Pose::Identity()}}, body_, returns_, scan_);
   const std::vector<Eigen::Vector3f>& normals =
       normal_estimator_.estimate(scan_.points, scan_.viewpoints, executor_).normals;
-  if (start_) {
-    return search_->near(scan_.points, normals, guess() * body_.T_body_lidar);
-  }
   const Eigen::Vector3d up = (level() * body_.T_body_lidar.linear()).row(2);
+  if (start_) {
+    return find_near_start(normals, up);
+  }
   std::optional<Pose> likely;
   if (last_pose_) {
     likely = *last_pose_ * body_.T_body_lidar;
   }
   return search_->anywhere(scan_.points, normals, up, likely);
+}
+
+// A start may be wrong, as by half a turn or a room: most of a scan fits there too, and its lines
+// of sight pass walls. Then, and where nothing fits, the whole map is searched.
+Place PriorPipeline::find_near_start(
+    const std::vector<Eigen::Vector3f>& normals, const Eigen::Vector3d& up) {
+  constexpr double kDoubtful = 0.01;  // of the lines of sight, against it
+  constexpr double kDegrees = 57.29577951308232;
+  const Pose given = guess() * body_.T_body_lidar;
+  Place near = search_->near(scan_.points, normals, given);
+  if (near.is_found()) {
+    const double against = share_against(
+        ScanWitness(scan_.points, normals), *pipeline_->map().voxel_map(), near.T_map_scan);
+    if (against <= kDoubtful) {
+      return near;
+    }
+    if (against > kMostAgainst) {
+      near.why_not = printed(
+          "at the start that was given %.1f %% of the lines of sight pass walls or furniture of "
+          "the map, and %.0f %% may",
+          100.0 * against,
+          100.0 * kMostAgainst);
+    }
+  }
+  Place elsewhere = search_->anywhere(scan_.points, normals, up);
+  if (!elsewhere.is_found()) {
+    return near;
+  }
+  const Pose apart = given.inverse() * elsewhere.T_map_scan;
+  start_finding_ = printed(
+      "the start that was given is wrong: the first scan fits the map %.1f m and %.0f degrees away "
+      "from it, and not there",
+      apart.translation().norm(),
+      kDegrees * so3_log(apart.linear()).norm());
+  return elsewhere;
 }
 
 // At rest the specific force points up. The heading is kept: that of the body's x axis.
@@ -209,6 +253,9 @@ Pose PriorPipeline::guess() const {
 
 std::vector<std::string> PriorPipeline::findings() const {
   std::vector<std::string> findings = pipeline_->findings();
+  if (!start_finding_.empty()) {
+    findings.push_back(start_finding_);
+  }
   const std::string loss = watch_.finding();
   if (!loss.empty()) {
     findings.push_back(loss);

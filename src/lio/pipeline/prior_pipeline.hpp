@@ -49,8 +49,8 @@ class PriorPipeline final : public Pipeline {
   const DeskewedScan& scan() const override { return pipeline_->scan(); }
   const std::vector<Eigen::Vector3f>& normals() const override { return pipeline_->normals(); }
   void start_at(const Pose& T_map_body) override { start_ = Start{T_map_body, false}; }
-  std::optional<ImuInputOptions> better_imu_input() const override {
-    return pipeline_->better_imu_input();
+  std::optional<ImuSetup> better_imu_setup() const override {
+    return pipeline_->better_imu_setup();
   }
   std::vector<std::string> findings() const override;
 
@@ -61,6 +61,7 @@ class PriorPipeline final : public Pipeline {
   bool is_doubtful(const FrameResult& result) const;
   double contradiction(const Pose& T_map_lidar) const;
   Place find(const Scan& scan);
+  Place find_near_start(const std::vector<Eigen::Vector3f>& normals, const Eigen::Vector3d& up);
   Eigen::Matrix3d level() const;
   Pose guess() const;
   bool is_to_search(double time);
@@ -74,6 +75,7 @@ class PriorPipeline final : public Pipeline {
   std::optional<PlaceSearch> search_;
   LossWatch watch_;
   bool is_placed_ = false;
+  std::string start_finding_;             ///< that the start which was given is wrong
   std::optional<Pose> last_pose_;         ///< T_map_body of the last frame that was believed
   double usual_share_ = 0.0;              ///< of the keypoints, that fitted of late
   double last_speed_ = 0.0;               ///< [m/s]
