@@ -123,6 +123,28 @@ Mask closed_along_rows(const Mask& mask, int length) {
   return result;
 }
 
+Mask filled(const Mask& mask) {
+  const auto is_inside = [&mask](const std::pair<int, int>& cell) {
+    const auto& [column, row] = cell;
+    return column > 0 && row > 0 && column < mask.columns() - 1 && row < mask.rows() - 1;
+  };
+  Mask result = mask;
+  Mask rest = complement(mask);
+  const Mask empty = rest;
+  empty.for_each([&](int column, int row) {
+    if (!rest.get(column, row)) {
+      return;
+    }
+    const Cells hole = take_component(rest, column, row);
+    if (std::all_of(hole.begin(), hole.end(), is_inside)) {
+      for (const auto& [c, r] : hole) {
+        result.set(c, r);
+      }
+    }
+  });
+  return result;
+}
+
 Mask intersection(const Mask& a, const Mask& b) {
   Mask result = Mask::like(a);
   a.for_each([&](int column, int row) { result.set(column, row, b.get(column, row)); });

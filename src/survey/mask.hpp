@@ -85,6 +85,9 @@ Mask closed(const Mask& mask, int radius);
 /// `mask` with uncovered runs of at most `length` cells between covered ones of a row filled.
 Mask closed_along_rows(const Mask& mask, int length);
 
+/// `mask` with what it encloses.
+Mask filled(const Mask& mask);
+
 /// Covered in both, or in the first and not in the second; of equal cells.
 Mask intersection(const Mask& a, const Mask& b);
 Mask difference(const Mask& a, const Mask& b);

@@ -26,14 +26,46 @@ PlaneBox box_of(const Mask& mask) {
   return box;
 }
 
+/// `hole` down to the wall's foot, where that is near and no side shows anything between: the foot
+/// of a wall is often hidden from the sensor, on both sides of a door as well.
+Mask down_to_foot(const Mask& hole, const Mask& shown, const PlaneBox& wall) {
+  constexpr double kReach = 0.7;  // [m]
+  constexpr double kMostly = 0.8;
+  const int foot = shown.row(wall.min_v + 0.5 * shown.cell());
+  Mask result = hole;
+  int columns = 0;
+  int open_columns = 0;
+  for (int column = 0; column < hole.columns(); ++column) {
+    int bottom = foot;
+    while (bottom < hole.rows() && !hole.get(column, bottom)) {
+      ++bottom;
+    }
+    if (bottom == hole.rows()) {
+      continue;
+    }
+    ++columns;
+    bool is_open = (bottom - foot) * hole.cell() <= kReach;
+    for (int row = foot; row < bottom && is_open; ++row) {
+      is_open = !shown.get(column, row);
+    }
+    for (int row = foot; row < bottom && is_open; ++row) {
+      result.set(column, row);
+    }
+    open_columns += is_open ? 1 : 0;
+  }
+  return open_columns >= kMostly * columns ? result : hole;
+}
+
 std::string opening_kind(const PlaneBox& opening, const PlaneBox& wall) {
-  constexpr double kTouch = 0.25;  // [m]
+  constexpr double kTouch = 0.25;      // [m]
+  constexpr double kLowestDoor = 1.5;  // as far as its foot is seen [m]
   const bool from_floor = opening.min_v < wall.min_v + kTouch;
   const bool to_ceiling = opening.max_v > wall.max_v - kTouch;
   if (from_floor && to_ceiling) {
     return "passage";
   }
-  if (from_floor && opening.height() > 1.7 && opening.width() > 0.5 && opening.width() < 2.2) {
+  if (from_floor && opening.height() > kLowestDoor && opening.width() > 0.5 &&
+      opening.width() < 2.2) {
     return "door";
   }
   return !from_floor && !to_ceiling ? "window" : "gap";
@@ -137,8 +169,10 @@ std::vector<Opening> WallBuilder::openings(const FacePair& pair, const Mask& sho
     return result;
   }
   const PlaneBox wall = box_of(shown);
-  const Mask empty = difference(closed_along_rows(shown, gap_cells(shown)), shown);
-  for (const Mask& hole : components(dilated(eroded(empty, 1), 1), kMinPart)) {
+  const Mask whole = filled(closed_along_rows(shown, gap_cells(shown)));
+  const Mask empty = difference(whole, shown);
+  for (const Mask& seen : components(dilated(eroded(empty, 1), 1), kMinPart)) {
+    const Mask hole = down_to_foot(seen, shown, wall);
     const PlaneBox box = box_of(hole);
     const Loop loop =
         snapper_.snap(pair.first, simplified(trace(hole).front(), 1.5 * hole.cell()), true);

@@ -40,6 +40,14 @@ class SurfaceSampler {
     }
   }
 
+  /// Adds what another has, moved by `by`.
+  void add_moved(const SurfaceSampler& other, const Eigen::Vector3d& by) {
+    for (std::size_t i = 0; i < other.cloud.positions.size(); ++i) {
+      cloud.positions.push_back(other.cloud.positions[i] + by);
+      cloud.normals.push_back(other.cloud.normals[i]);
+    }
+  }
+
   /// Adds the four upright sides of a box, seen from outside.
   void add_box(const Eigen::Vector3d& min, const Eigen::Vector3d& max) {
     const Eigen::Vector3d size = max - min;

@@ -101,29 +101,6 @@ TEST(Survey, ADoorLeafThatStandsOpenBeforeAWallIsADoor) {
   EXPECT_NEAR(survey.walls[1].thickness, 0.1, 0.001);
 }
 
-TEST(Survey, FacesGoOnBehindADoorAndTheDoorIsAnOpening) {
-  auto random = test::rng();
-  SurfaceSampler sampler(random);
-  sampler.add_wall({0, 0}, {2, 0}, 0.1, 2.5);
-  sampler.add_wall({3, 0}, {6, 0}, 0.1, 2.5);
-  SurfaceSampler lintel(random);
-  lintel.add_wall({2, 0}, {3, 0}, 0.1, 0.5);
-  const Eigen::Isometry3d up(Eigen::Translation3d(0, 0, 2.0));
-  const io::MapCloud above = moved(lintel.cloud, up);
-  sampler.cloud.positions.insert(
-      sampler.cloud.positions.end(), above.positions.begin(), above.positions.end());
-  sampler.cloud.normals.insert(
-      sampler.cloud.normals.end(), above.normals.begin(), above.normals.end());
-  const Survey survey = survey_walls(sampler.cloud, {});
-  ASSERT_THAT(survey.walls, SizeIs(1));
-  EXPECT_NEAR(survey.walls[0].length, 6.0, 0.11);
-  ASSERT_THAT(survey.walls[0].openings, SizeIs(1));
-  const Opening& door = survey.walls[0].openings[0];
-  EXPECT_EQ(door.kind, "door");
-  EXPECT_NEAR(door.width, 1.0, 0.1);
-  EXPECT_NEAR(door.height, 2.0, 0.11);
-}
-
 TEST(Survey, WallsOfTwoThicknessesInOneLineAreTwo) {
   auto random = test::rng();
   SurfaceSampler sampler(random);
