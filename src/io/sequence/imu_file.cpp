@@ -43,28 +43,52 @@ double imu_time_unit(const std::string& path) {
 
 ImuFile::ImuFile(const std::string& path)
     : unit_(imu_time_unit(path)), rows_(path, {"t", "gx", "gy", "gz", "ax", "ay", "az"}) {
-  advance();
+  read_ahead();
 }
 
 std::vector<ImuSample> ImuFile::until(double time) {
   std::vector<ImuSample> samples;
-  while (next_ && next_->time <= time) {
-    gaps_.add(next_->time);
-    samples.push_back(*next_);
-    advance();
+  while (!ahead_.empty() && ahead_.begin()->first <= time) {
+    samples.push_back(ahead_.begin()->second);
+    ahead_.erase(ahead_.begin());
+    handed_out_ = samples.back().time;
+    gaps_.add(handed_out_);
+    read_ahead();
   }
   return samples;
 }
 
-void ImuFile::advance() {
-  while (true) {
+// Of rows that are late, so many at most lie ahead of those that they belong before.
+void ImuFile::read_ahead() {
+  constexpr double kLatest = 0.5;  // [s]
+  while (!has_ended_ &&
+         (ahead_.empty() || ahead_.rbegin()->first - ahead_.begin()->first < kLatest)) {
     try {
-      next_ = read_row();
-      return;
+      if (const auto sample = read_row()) {
+        take(*sample);
+      } else {
+        has_ended_ = true;
+      }
     } catch (const std::runtime_error& error) {
       bad_rows_.add(error.what());
     }
   }
+}
+
+void ImuFile::take(const ImuSample& sample) {
+  const bool is_late = !ahead_.empty() && sample.time < ahead_.rbegin()->first;
+  if (sample.time <= handed_out_ || !ahead_.emplace(sample.time, sample).second) {
+    rows_.line().fail("the time is that of another sample, or not above those long before");
+  }
+  disordered_ += is_late ? 1 : 0;
+}
+
+std::optional<std::string> ImuFile::order_note() const {
+  return disordered_ == 0
+             ? std::nullopt
+             : std::optional(
+                   std::to_string(disordered_) +
+                   " rows of imu.csv are not in order of time: the samples are taken in it");
 }
 
 std::optional<ImuSample> ImuFile::read_row() {
@@ -81,10 +105,6 @@ std::optional<ImuSample> ImuFile::read_row() {
   if (const auto problem = problem_of(sample)) {
     rows_.line().fail(*problem);
   }
-  if (sample.time <= previous_) {
-    rows_.line().fail("the time is not above that of the sample before");
-  }
-  previous_ = sample.time;
   return sample;
 }
 

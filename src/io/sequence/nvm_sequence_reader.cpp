@@ -13,13 +13,11 @@
 #include <stdexcept>
 #include <utility>
 
-#include "common/median.hpp"
-#include "io/file/csv_reader.hpp"
 #include "io/file/file.hpp"
-#include "io/file/stays_below.hpp"
 #include "io/scan/repeat_watch.hpp"
 #include "io/sequence/imu_file.hpp"
 #include "io/sequence/left_out.hpp"
+#include "io/sequence/nvm_scan_list.hpp"
 #include "io/sequence/nvm_sequence_meta.hpp"
 #include "io/sequence/time_unit.hpp"
 
@@ -32,65 +30,6 @@ namespace fs = std::filesystem;
 constexpr std::size_t kRecordSize = 24;
 static_assert(sizeof(TimedPoint) == kRecordSize && offsetof(TimedPoint, ring) == 20);
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__);
-
-struct ScanEntry {
-  std::string path;
-  double t_begin = 0.0;
-  double t_end = 0.0;
-};
-
-/// The row of one scan; nothing at the end. Throws std::runtime_error for a bad row.
-std::optional<ScanEntry> read_scan_row(CsvReader& rows, const std::string& folder) {
-  const auto cells = rows.next();
-  if (!cells) {
-    return std::nullopt;
-  }
-  const ScanEntry entry{
-      (fs::path(folder) / (*cells)[3]).string(),
-      rows.line().number((*cells)[1]),
-      rows.line().number((*cells)[2])};
-  if (entry.t_end < entry.t_begin) {
-    rows.line().fail("t_end is below t_begin");
-  }
-  if (!stays_below(std::string((*cells)[3]))) {
-    rows.line().fail("the file " + quote((*cells)[3]) + " is outside of the folder");
-  }
-  return entry;
-}
-
-/// As they stand in scans.csv, bad rows aside.
-std::vector<ScanEntry> read_scan_list(const std::string& folder, LeftOut& bad_rows) {
-  CsvReader rows(folder + "/scans.csv", {"index", "t_begin", "t_end", "file"});
-  std::vector<ScanEntry> scans;
-  while (true) {
-    try {
-      auto entry = read_scan_row(rows, folder);
-      if (!entry) {
-        return scans;
-      }
-      scans.push_back(std::move(*entry));
-    } catch (const std::runtime_error& error) {
-      bad_rows.add(error.what());
-    }
-  }
-}
-
-/// By how long the scans last, or the steps between them.
-double scan_time_unit(const std::vector<ScanEntry>& scans) {
-  constexpr double kLongestScan = 10.0;    // [s]
-  constexpr double kLongestStep = 1000.0;  // of a scanner that is carried from place to place [s]
-  std::vector<double> durations, steps;
-  for (std::size_t i = 0; i < scans.size(); ++i) {
-    durations.push_back(scans[i].t_end - scans[i].t_begin);
-    steps.push_back(i == 0 ? 0.0 : std::abs(scans[i].t_begin - scans[i - 1].t_begin));
-  }
-  if (scans.empty()) {
-    return 1.0;
-  }
-  const double duration = median(std::move(durations));
-  return duration > 0.0 ? time_unit(duration, kLongestScan)
-                        : time_unit(median(std::move(steps)), kLongestStep);
-}
 
 /// The points of the whole files.
 std::size_t point_count(const std::vector<ScanEntry>& scans) {
@@ -115,6 +54,18 @@ std::vector<TimedPoint> points_of(const std::string& path, const std::string& by
     std::memcpy(static_cast<void*>(points.data()), bytes.data(), bytes.size());
   }
   return points;
+}
+
+/// Whether `t_end` contradicts the points, which last until after it, or the next scan, which
+/// begins before it and after the last point: then the points know better.
+bool is_end_wrong(const ScanEntry& entry, double last_point) {
+  constexpr double kSlack = 1e-3;    // [s]
+  constexpr double kLongest = 10.0;  // of a scan [s]
+  const double end = entry.t_begin + last_point;
+  const bool is_before = entry.t_end < std::max(entry.t_begin, end - kSlack);
+  const bool is_after = entry.t_end > entry.next_begin + kSlack && end < entry.t_end - kSlack;
+  return (is_before || is_after) && last_point >= 0.0 && last_point < kLongest &&
+         end <= entry.next_begin + kSlack;
 }
 
 /// Throws std::runtime_error unless the points are in order of time and within the scan.
@@ -218,6 +169,10 @@ class NvmSequence : public SequenceReader {
       info_.notes.emplace_back("scans.csv is not in order of time: the scans are taken in it");
       std::stable_sort(scans_.begin(), scans_.end(), is_earlier);
     }
+    for (std::size_t i = 1; i < scans_.size(); ++i) {
+      scans_[i - 1].next_begin = scans_[i].t_begin;
+      scans_[i].next_begin = 2.0 * scans_[i].t_begin - scans_[i - 1].t_begin;  // of the last
+    }
     if (bad_rows_.count() > 0) {
       info_.notes.push_back(*bad_rows_.note());
     }
@@ -254,6 +209,11 @@ class NvmSequence : public SequenceReader {
       fail(entry.path, "has the points of the scan before");
     }
     Scan scan{entry.t_begin, entry.t_end, points_of(entry.path, bytes)};
+    if (!scan.points.empty() && is_end_wrong(entry, scan.points.back().dt)) {
+      scan.t_end = entry.t_begin + scan.points.back().dt;
+      ++wrong_ends_;
+      renew_notes();
+    }
     check_times(entry.path, scan);
     drop_no_returns(scan.points);
     if (!info_.has_point_times) {
@@ -266,8 +226,15 @@ class NvmSequence : public SequenceReader {
   void renew_notes() {
     info_.notes.resize(fixed_notes_);
     std::vector<std::optional<std::string>> notes = {bad_scans_.note()};
+    if (wrong_ends_ > 0) {
+      notes.emplace_back(fmt::format(
+          "scans.csv: the t_end of {} scans contradicts the times of their points or the next "
+          "scan's t_begin: the last point's time is taken",
+          wrong_ends_));
+    }
     if (imu_) {
       notes.push_back(imu_->bad_rows().note());
+      notes.push_back(imu_->order_note());
       notes.push_back(imu_->gaps().summary());
     }
     for (const auto& note : notes) {
@@ -284,6 +251,7 @@ class NvmSequence : public SequenceReader {
   std::optional<ImuFile> imu_;
   RepeatWatch repeats_;
   LeftOut bad_scans_{"scans are"};
+  std::size_t wrong_ends_ = 0;
   std::size_t next_ = 0;
   double previous_ = -std::numeric_limits<double>::infinity();  ///< begin of the last scan [s]
   std::size_t fixed_notes_ = 0;  ///< the notes before those that change while reading
