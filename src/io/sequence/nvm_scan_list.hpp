@@ -16,7 +16,8 @@ struct ScanEntry {
   std::string path;
   double t_begin = 0.0;
   double t_end = 0.0;
-  double next_begin = std::numeric_limits<double>::infinity();  ///< of the next scan, told or expected
+  double next_begin =
+      std::numeric_limits<double>::infinity();  ///< of the next scan, told or expected
 };
 
 /// The rows as they stand in the scans.csv of `folder`; bad ones are counted instead. Throws

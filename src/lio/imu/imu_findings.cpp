@@ -165,12 +165,13 @@ std::string mirror_finding() {
          "all have the wrong sign";
 }
 
-std::string contradiction_finding(std::size_t times, bool still) {
+std::string contradiction_finding(std::size_t times, double first, bool still) {
   return printed(
-      "scans lay elsewhere than the IMU had led the pose (times: %zu): the scans alone were used "
-      "from "
-      "there%s. Check that it is this LiDAR's IMU, its axes (input.T_imu_lidar) and its clock",
+      "scans lay elsewhere than the IMU had led the pose (times: %zu, first at "
+      "%.1f s): the scans alone were used from there%s. Check that it is this LiDAR's IMU, its "
+      "axes (input.T_imu_lidar) and its clock",
       times,
+      first,
       still ? " to the end" : " until both told the same motion again");
 }
 

@@ -47,8 +47,9 @@ std::string gravity_finding(double felt, double gravity);
 /// Of an accelerometer.
 std::string mirror_finding();
 
-/// `times` the scans alone went on, and do `still`.
-std::string contradiction_finding(std::size_t times, bool still);
+/// `times` the scans alone went on, for the `first` so long [s] after the first scan, and do
+/// `still`.
+std::string contradiction_finding(std::size_t times, double first, bool still);
 
 /// Of scans that were used alone for the first `seconds`, for the sensor `moved` or for want of
 /// readings.

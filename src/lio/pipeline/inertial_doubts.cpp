@@ -34,10 +34,7 @@ bool InertialPipeline::hangs(const Scan& scan) {
   if (!is_repeat) {
     return false;
   }
-  imu_.between(filter_->state().time, scan.t_end, 0.0, samples_);
-  for (ImuSample& sample : samples_) {
-    sample = judge_.mended(sample);
-  }
+  take_readings(scan.t_end, 0.0);
   return !samples_.empty() && !judge_stillness(samples_, options_.initializer).still;
 }
 

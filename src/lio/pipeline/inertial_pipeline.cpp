@@ -119,10 +119,7 @@ double InertialPipeline::max_imu_gap() const {
 void InertialPipeline::predict(double until) {
   const double begin = filter_->state().time;
   const double max_gap = max_imu_gap();
-  imu_.between(begin, until, max_gap, samples_);
-  for (ImuSample& sample : samples_) {
-    sample = judge_.mended(sample);
-  }
+  take_readings(until, max_gap);
   segments_.clear();
   for (const ImuSample& next : samples_) {
     const double time = filter_->state().time;

@@ -92,6 +92,7 @@ class InertialPipeline final : public Pipeline {
   FrameResult process_alone(const Scan& scan);
   std::optional<Pose> led_astray_from(
       const Scan& scan, const ConstantVelocity& motion, const FrameResult& result);
+  void take_readings(double until, double max_gap);
   bool hangs(const Scan& scan);
   bool has_readings() const;
   bool is_leap(const Pose& T_map_lidar);
@@ -151,6 +152,7 @@ class InertialPipeline final : public Pipeline {
   std::optional<double> placed_time_;                ///< of the last that told its place [s]
   std::size_t believed_ = 0;                         ///< frames since the IMU joined
   std::size_t contradictions_ = 0;                   ///< that made it go on without the IMU
+  double first_contradiction_ = 0.0;                 ///< since the first scan [s]
   std::vector<Eigen::Vector3f> last_print_;          ///< some of the points of the last scan
   // Kept for their memory.
   std::deque<ImuSample> unread_;  ///< by the initializer

@@ -33,6 +33,14 @@ void InertialPipeline::read_imu(double until) {
   }
 }
 
+/// From the state's time on, mended.
+void InertialPipeline::take_readings(double until, double max_gap) {
+  imu_.between(filter_->state().time, until, max_gap, samples_);
+  for (ImuSample& sample : samples_) {
+    sample = judge_.mended(sample);
+  }
+}
+
 bool InertialPipeline::initialize(FrameResult& result) {
   for (; judge_.knows_unit() && !unread_.empty(); unread_.pop_front()) {
     const ImuSample sample = judge_.mended(unread_.front());
@@ -87,6 +95,7 @@ void InertialPipeline::go_alone(const ConstantVelocity& motion) {
 void InertialPipeline::leave_imu(const ConstantVelocity& motion) {
   constexpr double kSoon = 30.0;  // [s]
   const double now = filter_->state().time;
+  first_contradiction_ = contradictions_ == 0 ? now - *first_time_ : first_contradiction_;
   ++contradictions_;
   join_after_ = now - left_time_ < kSoon ? std::max(kRejoinAfter, 2.0 * join_after_) : kRejoinAfter;
   left_time_ = now;
@@ -224,7 +233,7 @@ std::string InertialPipeline::why_left() const {
     return early_end_finding(silence);
   }
   if (contradictions_ > 0) {
-    return contradiction_finding(contradictions_, is_alone_);
+    return contradiction_finding(contradictions_, first_contradiction_, is_alone_);
   }
   if (!is_alone_ || map_->size() == 0) {  // without a map the scans tell nothing either
     return "";
