@@ -7,10 +7,16 @@
 #include <optional>
 
 #include "lio/analytic_motion.hpp"
+#include "lio/imu_witness.hpp"
 #include "support/rng.hpp"
 
 namespace nvm::lio {
 namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr double kDegree = 0.017453292519943295;  // [rad]
 
@@ -47,11 +53,14 @@ std::optional<Eigen::Vector3d> found_turn(const Mount& mount) {
       history.add(StampedPose{t, pose});
     }
     if (i % 300 == 299) {
-      axes.look(history, t - 3.0);
+      axes.look(history, t - 3.0, 0.0);
     }
   }
-  const auto rotation = axes.rotation();
-  return rotation ? std::optional<Eigen::Vector3d>(so3_log(*rotation)) : std::nullopt;
+  const auto finding = axes.finding();
+  if (finding) {
+    EXPECT_NEAR(finding->lateness, mount.late, 0.002);
+  }
+  return finding ? std::optional<Eigen::Vector3d>(so3_log(finding->rotation)) : std::nullopt;
 }
 
 TEST(AxesWatch, FindsTheTurnWhateverTheGyroscopesBiasScaleAndClock) {
@@ -114,6 +123,47 @@ TEST(AxesWatch, FindsNoneAmongPosesOfMuchNoise) {
   for (int i = 0; i < 20; ++i) {
     EXPECT_FALSE(found_turn(mount));
   }
+}
+
+/// What a judge makes of half a minute of a turning motion.
+void watch(test::ImuWitness& witness) {
+  witness.motion.turning = 1.5;
+  for (int i = 0; i < 3000; ++i) {
+    const double t = 0.01 * i;
+    witness.judge.add(witness.reading(t));
+    if (i % 10 == 9) {
+      witness.judge.add(witness.pose(t));
+      witness.judge.inspect(t);
+    }
+  }
+}
+
+TEST(ImuJudge, LearnsHowTheLidarIsTurned) {
+  for (const double degrees : {2.0, 6.0}) {
+    test::ImuWitness witness;
+    witness.T_body_lidar.linear() = so3_exp(degrees * kDegree * Eigen::Vector3d(0.6, -0.64, 0.48));
+    watch(witness);
+    EXPECT_THAT(witness.judge.summary(), ElementsAre(HasSubstr("the LiDAR is turned by ")));
+    const auto better = witness.judge.better_setup();
+    ASSERT_TRUE(better);
+    const Eigen::Matrix3d left =
+        better->T_imu_lidar.linear().transpose() * witness.T_body_lidar.linear();
+    EXPECT_LT(so3_log(left).norm(), 0.08 * degrees * kDegree);
+  }
+}
+
+// The mount of the LiDAR would turn the accelerometer too.
+TEST(ImuJudge, DoesNotTurnTheLidarForAGyroscopeThatIsTurned) {
+  test::ImuWitness witness;
+  witness.reading = [&](double t) {
+    ImuSample sample = witness.motion.imu(t);
+    sample.gyro = so3_exp(6.0 * kDegree * Eigen::Vector3d(0.6, -0.64, 0.48)) * sample.gyro;
+    return sample;
+  };
+  watch(witness);
+  EXPECT_THAT(witness.judge.summary(), Not(Contains(HasSubstr("is turned by "))));
+  const auto better = witness.judge.better_setup();  // by its clock, which that looks like
+  EXPECT_TRUE(!better || better->T_imu_lidar.isApprox(Pose::Identity()));
 }
 
 }  // namespace

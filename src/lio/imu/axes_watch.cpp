@@ -55,17 +55,17 @@ bool belong_together(const Stretch& stretch) {
 
 }  // namespace
 
-void AxesWatch::look(const MotionHistory& history, double begin) {
+void AxesWatch::look(const MotionHistory& history, double begin, double mended) {
   const std::vector<MotionHistory::Turn> turns = history.turns();
   for (std::size_t i = 0; i < turns.size(); ++i) {
     const auto stretch = stretch_at(history, turns, i);
     if (stretch && stretch->end > begin && belong_together(*stretch)) {
-      add(history, *stretch);
+      add(history, *stretch, mended);
     }
   }
 }
 
-void AxesWatch::add(const MotionHistory& history, const Stretch& stretch) {
+void AxesWatch::add(const MotionHistory& history, const Stretch& stretch, double mended) {
   const auto rate_before = rate_at(history, stretch.begin);
   const auto rate_after = rate_at(history, stretch.end);
   if (!rate_before || !rate_after) {
@@ -77,7 +77,7 @@ void AxesWatch::add(const MotionHistory& history, const Stretch& stretch) {
   H.col(6) = *rate_after - *rate_before;
   H.col(7) = stretch.by_gyro;
   const double share = 1.0 / static_cast<double>(stretch.turns);
-  const Eigen::Vector3d difference = stretch.by_scans - stretch.by_gyro;
+  const Eigen::Vector3d difference = stretch.by_scans - stretch.by_gyro + mended * H.col(6);
   information_ += share * H.transpose() * H;
   vector_ += share * H.transpose() * difference;
   sq_difference_ += share * difference.squaredNorm();
@@ -99,7 +99,7 @@ AxesWatch::Matrix AxesWatch::prior_information() {
   return deviations.cwiseAbs2().cwiseInverse().asDiagonal();
 }
 
-std::optional<Eigen::Matrix3d> AxesWatch::rotation() const {
+std::optional<AxesWatch::Finding> AxesWatch::finding() const {
   constexpr double kLeast = 0.0175;  // [rad]
   constexpr double kDeviations = 6.0;
   constexpr double kMinWeight = 6.0;    // of stretches
@@ -116,13 +116,14 @@ std::optional<Eigen::Matrix3d> AxesWatch::rotation() const {
   const double variance =
       std::max(kLeastNoise * kLeastNoise, left / (3.0 * weight_ - static_cast<double>(kSize)));
   const Matrix covariance = (information_ / variance + prior).inverse();
-  const Eigen::Vector3d turn = (covariance * vector_ / variance).head<3>();
+  const Vector learned = covariance * vector_ / variance;
+  const Eigen::Vector3d turn = learned.head<3>();
   const Eigen::Matrix3d unsure = covariance.topLeftCorner<3, 3>();
   const double surprise = turn.dot(unsure.inverse() * turn);
   if (turn.norm() < kLeast || surprise < kDeviations * kDeviations) {
     return std::nullopt;
   }
-  return so3_exp(turn);
+  return Finding{so3_exp(turn), learned[6]};
 }
 
 }  // namespace nvm::lio

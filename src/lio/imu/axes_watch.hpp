@@ -23,12 +23,18 @@ class AxesWatch {
     std::size_t turns;
   };
 
-  /// Takes what has turned until after `begin` [s], when it was looked at last.
-  void look(const MotionHistory& history, double begin);
+  /// From the IMU's axes to those that the poses take for them, and how late its clock is [s].
+  struct Finding {
+    Eigen::Matrix3d rotation;
+    double lateness;
+  };
 
-  /// From the IMU's axes to those that the poses take for them; nothing unless it is sure and
-  /// turns by a degree or more.
-  std::optional<Eigen::Matrix3d> rotation() const;
+  /// Takes what has turned until after `begin` [s], when it was looked at last, in a history whose
+  /// readings have been moved by `-mended` [s].
+  void look(const MotionHistory& history, double begin, double mended);
+
+  /// Nothing unless it is sure and turns by a degree or more.
+  std::optional<Finding> finding() const;
 
  private:
   /// Rotation [rad], bias [rad/s], lateness [s], scale: each row of `H` says what they add to a
@@ -38,7 +44,7 @@ class AxesWatch {
   using Vector = Eigen::Matrix<double, kSize, 1>;
   using Matrix = Eigen::Matrix<double, kSize, kSize>;
 
-  void add(const MotionHistory& history, const Stretch& stretch);
+  void add(const MotionHistory& history, const Stretch& stretch, double mended);
   double difference_left(int first, const Matrix& prior) const;
   static Matrix prior_information();
 

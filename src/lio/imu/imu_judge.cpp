@@ -103,7 +103,8 @@ ImuVerdict ImuJudge::inspect(double time) {
   if (time < inspected_ + kPeriod || history_.duration() < kPeriod) {
     return ImuVerdict::kUnknown;
   }
-  axes_.look(history_, inspected_);
+  axes_.look(history_, inspected_, clocks_.mended());
+  weigh_rotation(kPeriod);
   inspected_ = time;
   ranges_.weigh(history_, kPeriod, gravity_);
   return weigh_rest(kPeriod);
@@ -125,8 +126,8 @@ ImuVerdict ImuJudge::weigh_rest(double duration) {
 
 std::vector<std::string> ImuJudge::summary() const {
   std::vector<std::string> lines = findings_;
-  const auto rotation = learned_rotation();
-  const std::string turned = rotation ? small_rotation_finding(*rotation, T_body_lidar_) : "";
+  const auto axes = learned_axes();
+  const std::string turned = axes ? small_rotation_finding(axes->rotation, T_body_lidar_) : "";
   const bool are_clocks_known = !tells_offset_ && !contradicts_ && turned.empty();
   const std::string clocks = are_clocks_known ? clocks_.finding() : "";
   for (const std::string& line : {rest_.finding(accel_scale_), ranges_.finding(), turned, clocks}) {
@@ -137,25 +138,20 @@ std::vector<std::string> ImuJudge::summary() const {
   return lines;
 }
 
-// A dead axis turns all that the others tell.
-std::optional<Eigen::Matrix3d> ImuJudge::learned_rotation() const {
-  return contradicts_ || gyro_clipping_.frozen() ? std::nullopt : axes_.rotation();
-}
-
 std::optional<ImuSetup> ImuJudge::better_setup() const {
   constexpr double kSmallOffset = 0.005;  // that costs next to nothing until it is mended [s]
-  const bool was_elsewhen =
-      std::abs(clocks_.mended()) > kSmallOffset && clocks_.was_late_at_first();
-  const auto rotation = options_.learns_rotation ? learned_rotation() : std::nullopt;
-  if (!has_mended_gyro_ && !has_mended_accel_ && !was_elsewhen && !rotation) {
+  const auto axes = options_.learns_rotation ? learned_axes() : std::nullopt;
+  const double lateness = axes ? axes->lateness : clocks_.mended();
+  const bool was_elsewhen = std::abs(lateness) > kSmallOffset && clocks_.was_late_at_first();
+  if (!has_mended_gyro_ && !has_mended_accel_ && !was_elsewhen && !axes) {
     return std::nullopt;
   }
   ImuSetup better{options_, T_body_lidar_};
   better.input.gyro_scale = has_mended_gyro_ ? gyro_scale_ : options_.gyro_scale;
   better.input.accel_scale = has_mended_accel_ ? accel_scale_ : options_.accel_scale;
-  better.input.time_offset -= was_elsewhen ? clocks_.mended() : 0.0;
-  if (rotation) {
-    better.T_imu_lidar.linear() = rotation->transpose() * T_body_lidar_.linear();
+  better.input.time_offset -= was_elsewhen ? lateness : 0.0;
+  if (axes) {
+    better.T_imu_lidar.linear() = axes->rotation.transpose() * T_body_lidar_.linear();
   }
   return better;
 }

@@ -80,7 +80,8 @@ class ImuJudge {
   bool mend_gyro(const TurnComparison& turns, bool is_explained);
   void look_at_clock(double time);
   void mend_clock(double offset);
-  std::optional<Eigen::Matrix3d> learned_rotation() const;
+  void weigh_rotation(double duration);
+  std::optional<AxesWatch::Finding> learned_axes() const;
   ImuVerdict judge_gravity();
   ImuVerdict weigh_rest(double duration);
   ImuVerdict judge_sign(ImuVerdict turns);
@@ -104,6 +105,9 @@ class ImuJudge {
   RangeScale ranges_;
   ClockWatch clocks_;
   AxesWatch axes_;
+  /// Of poses from what the accelerometer tells of them, with its axes as they are and turned by
+  /// what axes_ has found [m^2].
+  double sq_misfit_ = 0.0, sq_misfit_turned_ = 0.0;
   double untaken_offset_ = 0.0;  ///< of the clock, for take_clock_offset() [s]
   double clocked_ = -1e300;      ///< until then the turns have told of the clock [s]
   double tried_clock_ = -1e300;  ///< when they were asked last [s]

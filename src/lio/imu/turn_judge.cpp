@@ -91,16 +91,35 @@ void ImuJudge::look_at_clock(double time) {
 }
 
 void ImuJudge::mend_clock(double offset) {
-  constexpr double kMuch = 2e-3;  // that would pass for a turn of the axes [s]
-  if (std::abs(offset) > kMuch) {
-    axes_ = AxesWatch();
-  }
   clocks_.mend(offset);
   untaken_offset_ += offset;
   history_.move_readings(-offset);
 }
 
 double ImuJudge::take_clock_offset() { return std::exchange(untaken_offset_, 0.0); }
+
+// A gyroscope that is turned in its housing is not the LiDAR's mount: that turns both sensors.
+void ImuJudge::weigh_rotation(double duration) {
+  const auto found = axes_.finding();
+  if (!found) {
+    return;
+  }
+  MotionHistory turned = history_;
+  turned.turn_readings(found->rotation);
+  const std::optional<MotionFit> fit = fit_motion(history_, duration, 1.0);
+  const std::optional<MotionFit> fit_turned = fit_motion(turned, duration, 1.0);
+  if (fit && fit_turned) {
+    sq_misfit_ += fit->position_rms * fit->position_rms;
+    sq_misfit_turned_ += fit_turned->position_rms * fit_turned->position_rms;
+  }
+}
+
+// A dead axis turns all that the others tell.
+std::optional<AxesWatch::Finding> ImuJudge::learned_axes() const {
+  constexpr double kClearly = 0.8;
+  const bool is_witnessed = sq_misfit_turned_ < kClearly * sq_misfit_;
+  return contradicts_ || gyro_clipping_.frozen() || !is_witnessed ? std::nullopt : axes_.finding();
+}
 
 ImuVerdict ImuJudge::judge_turns(double max_mismatch, bool are_poses_apart) {
   constexpr double kSmallTurn = 0.25;  // [rad]
