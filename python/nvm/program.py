@@ -66,7 +66,7 @@ def run_program(arguments: list[str], keeps: tuple[int, ...] = ()) -> int:
         return run_alone([program, *arguments], keeps)
     with recording:
         choice = choose(recording, settings["lidar_topic"], settings["imu_topic"])
-        for reason in (*recording.problems, *choice.reasons):
+        for reason in (*recording.problems, *reasons_to_tell(choice, settings)):
             print(f"nvm: note: {reason}", file=sys.stderr)
         chosen = choice_arguments(choice, settings)
         return feed([program, *before], [*after, *chosen], keeps, recording, choice)
@@ -113,6 +113,11 @@ def input_settings(program: str, arguments: list[str]) -> dict:
         raise RuntimeError(asked.stderr.strip() or "the program does not print its settings")
     settings = YAML(typ="safe").load(asked.stdout)["input"]
     return {key: value or "" for key, value in settings.items()}
+
+
+def reasons_to_tell(choice: Choice, settings: dict) -> list[str]:
+    """Without that of an extrinsic which the user has set."""
+    return [r for r in choice.reasons if not (settings["T_imu_lidar"] and r.startswith("T_imu_lidar:"))]
 
 
 def choice_arguments(choice: Choice, settings: dict) -> list[str]:

@@ -85,6 +85,15 @@ def test_the_choice_is_said(reference):
         assert f"nvm: note: {line}" in reference[1].stderr
 
 
+def test_an_extrinsic_that_is_set_is_not_said_to_be_assumed(tmp_path):
+    without = lambda m: (message for message in seeded()(m) if message[0] != "/tf_static")
+    bag = write(tmp_path / "still", "bag", without)
+    for setting, expected in (([], True), (["--set", "input.T_imu_lidar=[0.1,0,0.2,0,0,0,1]"], False)):
+        done = nvm("run", bag, "--out", tmp_path / "out", *setting)
+        assert done.returncode == 0, done.stderr
+        assert ("identity is assumed" in done.stderr) == expected
+
+
 def test_the_program_itself_gives_the_same_bits(reference, tmp_path):
     bag = write(tmp_path / "still", "bag", seeded())
     extrinsic = "input.T_imu_lidar=[0.1, 0.0, 0.2, 0.0, 0.0, 0.0, 1.0]"
