@@ -30,9 +30,6 @@ std::unique_ptr<LioMap> usable(const PipelineOptions& options, VoxelMap prior, b
   return continued_map(std::move(prior), !extends);
 }
 
-/// Of the lines of sight: furniture may have been moved.
-constexpr double kMostAgainst = 0.02;
-
 /// The share of the lines of sight of a scan at `T_map_scan` that pass faces of `map`.
 double share_against(const ScanWitness& witness, const VoxelMap& map, const Pose& T_map_scan) {
   const Testimonies testimonies = witness.testify(map, T_map_scan);
@@ -105,9 +102,10 @@ void PriorPipeline::believe(const FrameResult& result) {
 // Half of a scan fits somewhere in most rooms. Of a sensor that was carried away tell how far it
 // would have come and, where it fits worse than before, the lines of sight.
 bool PriorPipeline::is_doubtful(const FrameResult& result) const {
-  constexpr double kReach = 0.5;  // [m]
-  constexpr double kSpeed = 3.0;  // [m/s]
-  constexpr double kDrop = 0.2;   // of the share that fits
+  constexpr double kReach = 0.5;         // [m]
+  constexpr double kSpeed = 3.0;         // [m/s]
+  constexpr double kDrop = 0.2;          // of the share that fits
+  constexpr double kMostAgainst = 0.02;  // of the lines of sight: furniture may have been moved
   const double reach = kReach + (kSpeed + 2.0 * last_speed_) * watch_.silence(result.time);
   if ((result.T_map_body.translation() - last_pose_->translation()).norm() > reach) {
     return true;
@@ -195,37 +193,45 @@ Place PriorPipeline::find(const Scan& scan) {
 }
 
 // A start may be wrong, as by half a turn or a room: most of a scan fits there too, and its lines
-// of sight pass walls. Then, and where nothing fits, the whole map is searched.
+// of sight pass walls. Then, and where less fits, the whole map is searched.
 Place PriorPipeline::find_near_start(
     const std::vector<Eigen::Vector3f>& normals, const Eigen::Vector3d& up) {
+  constexpr double kMostly = 0.75;    // of the scan, that fits
   constexpr double kDoubtful = 0.01;  // of the lines of sight, against it
+  constexpr double kMost = 0.03;      // who gives a start may know of furniture that was moved
+  constexpr double kFar = 1.5;        // [m]
+  constexpr double kTurned = 0.5;     // [rad]
   constexpr double kDegrees = 57.29577951308232;
   const Pose given = guess() * body_.T_body_lidar;
   Place near = search_->near(scan_.points, normals, given);
   if (near.is_found()) {
     const double against = share_against(
         ScanWitness(scan_.points, normals), *pipeline_->map().voxel_map(), near.T_map_scan);
-    if (against <= kDoubtful) {
+    if (against <= kDoubtful && near.share >= kMostly) {
       return near;
     }
-    if (against > kMostAgainst) {
-      near.why_not = printed(
-          "at the start that was given %.1f %% of the lines of sight pass walls or furniture of "
-          "the map, and %.0f %% may",
-          100.0 * against,
-          100.0 * kMostAgainst);
-    }
+    start_finding_ = printed(
+        "at the start that was given %.0f %% of the scan fit the map, and %.1f %% of its lines of "
+        "sight pass walls or furniture: unless much was moved, the start is wrong",
+        100.0 * near.share,
+        100.0 * against);
+    near.why_not = against > kMost ? start_finding_ : "";
   }
   Place elsewhere = search_->anywhere(scan_.points, normals, up);
   if (!elsewhere.is_found()) {
     return near;
   }
   const Pose apart = given.inverse() * elsewhere.T_map_scan;
-  start_finding_ = printed(
-      "the start that was given is wrong: the first scan fits the map %.1f m and %.0f degrees away "
-      "from it, and not there",
-      apart.translation().norm(),
-      kDegrees * so3_log(apart.linear()).norm());
+  const double distance = apart.translation().norm();
+  const double turn = so3_log(apart.linear()).norm();
+  start_finding_.clear();
+  if (distance > kFar || turn > kTurned) {
+    start_finding_ = printed(
+        "the start that was given is wrong: the first scan fits the map %.1f m and %.0f degrees "
+        "away from it, and not there",
+        distance,
+        kDegrees * turn);
+  }
   return elsewhere;
 }
 

@@ -75,7 +75,7 @@ class PriorPipeline final : public Pipeline {
   std::optional<PlaceSearch> search_;
   LossWatch watch_;
   bool is_placed_ = false;
-  std::string start_finding_;             ///< that the start which was given is wrong
+  std::string start_finding_;             ///< that the start which was given is wrong, or may be
   std::optional<Pose> last_pose_;         ///< T_map_body of the last frame that was believed
   double usual_share_ = 0.0;              ///< of the keypoints, that fitted of late
   double last_speed_ = 0.0;               ///< [m/s]
